@@ -1,0 +1,30 @@
+#include "accel/accel.h"
+
+#include <string.h>
+
+extern const struct accel_ops accel_list, accel_octree;
+
+const struct accel_ops *const accel_all[] = { &accel_list, &accel_octree, NULL };
+
+const struct accel_ops *accel_find(const char *name)
+{
+	for (const struct accel_ops *const *ops = accel_all; *ops; ops++)
+		if (strcmp((*ops)->name, name) == 0)
+			return *ops;
+	return NULL;
+}
+
+int accel_build(struct accel *a, const struct accel_ops *ops, const void *opt, const struct primitives *p, struct err *e)
+{
+	*a = (struct accel){ .ops = ops, .primitives = p };
+	if (ops->build(a, opt, e) == 0)
+		return 0;
+	accel_free(a);
+	return -1;
+}
+
+void accel_free(struct accel *a)
+{
+	arena_free(&a->mem);
+	*a = (struct accel){ 0 };
+}

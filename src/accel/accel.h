@@ -1,0 +1,89 @@
+/* Spatial structures behind one door: build one over primitives, list its cells, shoot rays through it.
+ *
+ * What is counted, the same for every structure, per ray:
+ *   leaves       leaf cells visited over a piece of positive length, the one of the start included
+ *   tests        ray-primitive tests: every primitive listed in a visited leaf, the ray's own start primitive too; there is no
+ *                mailbox and no early out
+ *   inner_step   inner nodes visited while stepping from one leaf to the next
+ *   inner_start  inner nodes visited by the first descent, root included
+ *   hits         1 if a primitive ends the ray, else 0
+ *
+ * Rules that make the closed forms of cost/ exact:
+ *   1 a hit is accepted in the leaf where t <= t_exit + slack; one further out is ignored there and found again later
+ *   2 the start leaf is found by point and direction: a start within slack of a cell plane belongs to the cell ahead; one that
+ *     leads out of the root visits nothing
+ *   3 lists hold every primitive within slack of the closed cell
+ *   4 a hit at |t| <= slack counts only for an id higher than the start primitive's (geom/ray.h) */
+#ifndef ACCEL_ACCEL_H
+#define ACCEL_ACCEL_H
+
+#include "base/arena.h"
+#include "base/err.h"
+#include "base/key.h"
+#include "scene/primitives.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct tally {
+	uint64_t leaves, tests, inner_step, inner_start, hits;
+};
+
+/* One cell as a predictor sees it; inner cells are listed too. A leaf is convex and the leaves partition the root. */
+struct cell {
+	struct box bounds;
+	double area;               /* surface area, scene units^2 */
+	const uint32_t *ids;       /* leaf: the listed primitives; inner: NULL */
+	uint32_t count;            /* of ids */
+	uint16_t depth;            /* root 0 */
+	bool leaf;
+	/* Leaf: inner nodes visited by a ray that crosses face f (2 axis + upper side), both directions together; 0 where the
+	 * outside or smaller cells lie across: a face is charged to its smaller cell. */
+	double steps[6];
+};
+/* Return 0 to go on, anything else to stop. */
+typedef int cell_fn(void *ctx, const struct cell *c);
+
+struct accel;
+
+/* What a structure is. Options live in a struct of opt_size <= ACCEL_OPT_MOST bytes described by keys. */
+struct accel_ops {
+	const char *name, *text;      /* key in job files; one line for the docs */
+	const struct key *keys;       /* its options; ends with a NULL name */
+	size_t opt_size;
+	int (*build)(struct accel *a, const void *opt, struct err *e);
+	/* Every cell in a fixed preorder; returns what fn stopped with, or 0. */
+	int (*cells)(const struct accel *a, cell_fn *fn, void *ctx);
+	/* Fill *h with the first hit (hit_better order) and return whether there is one. The counted form adds to *n. */
+	bool (*shoot)(const struct accel *a, const struct ray *r, struct hit *h);
+	bool (*shoot_counted)(const struct accel *a, const struct ray *r, struct hit *h, struct tally *n);
+	/* The counted form for an array of rays; fills h[count] and n[count]. Same results as one by one, sooner. */
+	void (*shoot_many)(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n);
+	int (*check)(const struct accel *a, struct err *e); /* invariants, for tests */
+};
+
+enum { ACCEL_OPT_MOST = 128 };
+
+/* Read-only once built: threads share it freely. */
+struct accel {
+	const struct accel_ops *ops;
+	const struct primitives *primitives; /* borrowed; must outlive the structure */
+	struct box root;                     /* the region that is partitioned: holds every primitive */
+	double slack;                        /* 1e-9 of the root's diagonal */
+	void *impl;                          /* the structure's own nodes, inside mem */
+	struct arena mem;                    /* owned */
+	uint64_t nodes, leaves, empty_leaves, references;
+	int depth;                           /* of the deepest leaf */
+};
+
+extern const struct accel_ops *const accel_all[]; /* NULL-terminated */
+
+/* The structure called 'name', or NULL. */
+const struct accel_ops *accel_find(const char *name);
+
+/* Build into *a (zeroed here). opt: the structure's own options, filled from its keys. 0, or -1 and *e; then nothing is held. */
+int accel_build(struct accel *a, const struct accel_ops *ops, const void *opt, const struct primitives *p, struct err *e);
+
+void accel_free(struct accel *a);
+
+#endif

@@ -1,0 +1,98 @@
+/* The octree's inside, shared by the files that build it (octree_build.c), balance it (octree_balance.c) and walk it (octree.c).
+ *
+ * Cells have integer coordinates on a grid of 2^20 cells a side over the root, whatever the tree's depth: plane i of an axis lies
+ * at root.lo + i * step, the same double for every cell that has it as a side. */
+#ifndef ACCEL_OCTREE_H
+#define ACCEL_OCTREE_H
+
+#include "accel/accel.h"
+#include "accel/block.h"
+#include "accel/root.h"
+
+enum { OCTREE_LEVELS = 20, OCTREE_CELLS = 1 << OCTREE_LEVELS };
+#define NO_NODE UINT32_MAX
+
+enum octree_overlap { OVERLAP_EXACT, OVERLAP_BBOX };
+
+struct octree_options {
+	bool balanced;
+	int64_t max_objects, max_depth;
+	int root, overlap;
+};
+
+/* One cache line. Children stand together, number 4 z + 2 y + x (upper half: 1). */
+struct octree_node {
+	uint32_t child;        /* the first of eight; 0: a leaf */
+	uint32_t first, count; /* leaf: its ids are refs[first .. first + count) */
+	int32_t cell[3];       /* lower corner on the grid */
+	uint32_t link[6];      /* leaf: the same-or-larger node across face 2 axis + upper, NO_NODE outside */
+	uint32_t block;        /* leaf: the first of its list's blocks */
+	float edge;            /* leaf: the longest edge in its list */
+	uint8_t depth;
+	uint8_t unused[7];
+};
+_Static_assert(sizeof(struct octree_node) == 64, "a node is a cache line");
+
+struct octree {
+	struct octree_node *nodes; /* depth first, root at 0 */
+	uint32_t *refs;
+	struct block *blocks;      /* the lists again, packed for the walk */
+	uint32_t *start;           /* [1 << 3 start_depth], x fastest: the node of that depth or the leaf around it */
+	int start_depth;
+	uint32_t node_count, ref_count;
+	struct vec step, per_step; /* grid spacing and its inverse */
+	struct vec center;         /* of the root */
+	double diagonal;
+	struct octree_options options;
+};
+
+/* Side of a node in grid cells. */
+static inline int32_t octree_side(unsigned depth)
+{
+	return (int32_t)(OCTREE_CELLS >> depth);
+}
+
+/* Position of grid plane i. */
+static inline double octree_plane(const struct box *root, const struct octree *o, int axis, int32_t i)
+{
+	return root->lo.a[axis] + i * o->step.a[axis];
+}
+
+/* The child of n on the way to grid cell 'at'. */
+static inline uint32_t octree_child_toward(const struct octree_node *n, const int32_t *at)
+{
+	int shift = OCTREE_LEVELS - 1 - n->depth;
+	return n->child + (uint32_t)((at[0] >> shift & 1) | (at[1] >> shift & 1) << 1 | (at[2] >> shift & 1) << 2);
+}
+
+struct box octree_bounds(const struct box *root, const struct octree *o, const struct octree_node *n);
+
+/* A tree being built: arrays that grow, from malloc, freed on closing. Inner nodes' old lists stay in refs until the end. */
+struct octree_builder {
+	const struct primitives *primitives;
+	const struct box *root;
+	double slack;
+	struct octree tree;
+	struct box *bounds; /* of every primitive */
+	size_t node_room, ref_room;
+};
+
+/* Fill *b with the tree split to the options over a->primitives, a->root and a->slack. Close it in any case.
+ * 0, or -1 and *e: memory, too many nodes. */
+int octree_builder_open(struct octree_builder *b, const struct accel *a, const struct octree_options *o, struct err *e);
+void octree_builder_close(struct octree_builder *b);
+
+/* Add eight leaf children to leaf 'n' and share its list out among them (the old list stays behind, unused).
+ * 0, or -1 and *e: memory, too many nodes. */
+int octree_split(struct octree_builder *b, uint32_t n, struct err *e);
+
+/* Moore's three passes with the table of leaf vertices (Aronov et al. 2002, section 4.1): afterwards leaves that share a vertex
+ * differ by at most one level. 0, or -1 and *e. */
+int octree_balance(struct octree_builder *b, struct err *e);
+
+/* The door's functions that do not walk. */
+int octree_build(struct accel *a, const void *opt, struct err *e);
+int octree_cells(const struct accel *a, cell_fn *fn, void *ctx);
+int octree_check(const struct accel *a, struct err *e);
+
+#endif

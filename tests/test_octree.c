@@ -1,0 +1,226 @@
+/* The octree's shape: lists, links, balance, the identities every octree obeys, and the list as the oracle of every hit. */
+#include "tests/check.h"
+
+#include "accel/octree.h"
+#include "cost/cost.h"
+#include "trace/rays.h"
+
+#include <string.h>
+
+static struct octree_options options(bool balanced, int max_objects, int max_depth, int root)
+{
+	return (struct octree_options){ balanced, max_objects, max_depth, root, OVERLAP_EXACT };
+}
+
+static struct accel build(const struct primitives *p, struct octree_options o)
+{
+	struct err e = { 0 };
+	struct accel a;
+	if (accel_build(&a, accel_find("octree"), &o, p, &e) != 0)
+		fail_msg("%s", e.text);
+	return a;
+}
+
+static void must_hold(const struct accel *a)
+{
+	struct err e = { 0 };
+	if (a->ops->check(a, &e) != 0)
+		fail_msg("%s", e.text);
+}
+
+static void every_variant_is_sound(void **state)
+{
+	(void)state;
+	static const struct { const char *family; int size; bool tessellate; } scenes[] = {
+		{ "tetra", 3, false }, { "gears", 1, false }, { "balls", 1, true }, { "balls", 2, false }, { "teapot", 2, false },
+	};
+	for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++) {
+		struct primitives p = make_spd(scenes[s].family, scenes[s].size, scenes[s].tessellate);
+		for (int v = 0; v < 8; v++) {
+			struct octree_options o = options(v & 1, v & 2 ? 2 : 10, 6, v & 4 ? ROOT_BOX : ROOT_CUBE);
+			o.overlap = v == 3 ? OVERLAP_BBOX : OVERLAP_EXACT;
+			struct accel a = build(&p, o);
+			must_hold(&a);
+			assert_int_equal(a.leaves, 7 * (a.nodes - a.leaves) + 1);
+			accel_free(&a);
+		}
+		primitives_free(&p);
+	}
+}
+
+/* A leaf's corners are corners or inner points of faces and edges of its neighbours: no leaf that shares one is two deeper. */
+static void check_corners(const struct octree *o)
+{
+	for (uint32_t i = 0; i < o->node_count; i++) {
+		const struct octree_node *n = &o->nodes[i];
+		for (int corner = 0; !n->child && corner < 8; corner++) {
+			int32_t at[3];
+			for (int k = 0; k < 3; k++) { /* the grid cell just outside the corner */
+				at[k] = n->cell[k] + (corner >> k & 1 ? octree_side(n->depth) : -1);
+				at[k] = at[k] < 0 ? 0 : at[k] >= OCTREE_CELLS ? OCTREE_CELLS - 1 : at[k];
+			}
+			const struct octree_node *m = o->nodes;
+			while (m->child) {
+				int shift = OCTREE_LEVELS - 1 - m->depth;
+				m = &o->nodes[m->child + (uint32_t)((at[0] >> shift & 1) | (at[1] >> shift & 1) << 1 |
+				                                    (at[2] >> shift & 1) << 2)];
+			}
+			assert_true(m->depth <= n->depth + 1);
+		}
+	}
+}
+
+static void balancing_is_complete_and_idempotent(void **state)
+{
+	(void)state;
+	struct err e = { 0 };
+	struct primitives p = make_spd("tetra", 4, false);
+	struct octree_options o = options(true, 2, 9, ROOT_CUBE);
+	struct accel plain = build(&p, options(false, 2, 9, ROOT_CUBE)), balanced = build(&p, o);
+	must_hold(&balanced);
+	check_corners(balanced.impl);
+	assert_true(balanced.leaves > plain.leaves);
+
+	struct octree_builder b;
+	assert_int_equal(octree_builder_open(&b, &balanced, &o, &e), 0);
+	assert_int_equal(b.tree.node_count, plain.nodes);
+	assert_int_equal(octree_balance(&b, &e), 0);
+	assert_int_equal(b.tree.node_count, balanced.nodes);
+	assert_int_equal(octree_balance(&b, &e), 0);
+	assert_int_equal(b.tree.node_count, balanced.nodes);
+	octree_builder_close(&b);
+	accel_free(&plain);
+	accel_free(&balanced);
+	primitives_free(&p);
+}
+
+/* Every octree: leaves' area = root's + inner nodes'; for lines the inner nodes met from the top are one fewer than the leaves. */
+static void identities_of_octrees(void **state)
+{
+	(void)state;
+	static const char *const families[] = { "tetra", "teapot", "gears", "sphere" };
+	for (int i = 0; i < 16; i++) {
+		struct err e = { 0 };
+		struct primitives p = make_spd(families[i / 4], 2, false);
+		struct accel a = build(&p, options(i & 1, 5, 7, i & 2 ? ROOT_BOX : ROOT_CUBE));
+		struct prediction lines, rays;
+		assert_int_equal(cost_predict(&lines, &a, LAW_LINES, 1, 1, &e), 0);
+		assert_int_equal(cost_predict(&rays, &a, LAW_RAYS, 1, 1, &e), 0);
+		assert_near(lines.inner_top_down / (lines.leaves - 1), 1, 1e-11);
+		assert_near(lines.area_leaves / box_area(&a.root), lines.leaves, 1e-11 * lines.leaves);
+		assert_near(rays.area_inside / p.area, 1, 1e-9);
+		assert_true(lines.inner_step < lines.leaves && rays.inner_step < rays.leaves);
+		if (i & 1)
+			assert_true(lines.inner_step < 0.5 * lines.leaves && rays.inner_step < 0.5 * rays.leaves);
+		accel_free(&a);
+		primitives_free(&p);
+	}
+}
+
+/* Two specks in every cell of depth 'last' all of whose ancestors, itself included, have coordinates of even sum. */
+static void add_specks(struct scene *s, int depth, int last, int x, int y, int z)
+{
+	if ((x + y + z) % 2)
+		return;
+	if (depth < last) {
+		for (int c = 0; c < 8; c++)
+			add_specks(s, depth + 1, last, 2 * x + (c & 1), 2 * y + (c >> 1 & 1), 2 * z + (c >> 2));
+		return;
+	}
+	double side = ldexp(1, -depth), speck = 0.01 * side;
+	for (int i = 0; i < 2; i++) {
+		struct vec o = vec((x + 0.1 + 0.2 * i) * side, (y + 0.1) * side, (z + 0.1) * side);
+		struct vec corners[3] = { o, vec_add(o, vec(speck, 0, 0)), vec_add(o, vec(0, speck, 0)) };
+		scene_add_polygon(s, corners, 3);
+	}
+}
+
+/* Splitting just the even cells of a checkerboard at every level drives the overhead of links towards its bound 2:
+ * 1 + (D - 2 + 2^(1-D)) / (D + 1) for lines. */
+static void checkerboard_overhead(void **state)
+{
+	(void)state;
+	for (int depth = 2; depth <= 6; depth++) {
+		struct scene s = { 0 };
+		struct err e = { 0 };
+		struct prediction lines;
+		add_specks(&s, 0, depth - 1, 0, 0, 0);
+		struct vec low[3] = { vec(0, 0, 0), vec(1e-3, 0, 1e-3), vec(0, 1e-3, 0) };
+		struct vec high[3] = { vec(1, 1, 1), vec(0.999, 1, 0.999), vec(1, 0.999, 1) };
+		scene_add_polygon(&s, low, 3);
+		scene_add_polygon(&s, high, 3);
+		struct primitives p = make_primitives(&s);
+		struct accel a = build(&p, options(false, 1, depth, ROOT_BOX));
+		assert_int_equal(cost_predict(&lines, &a, LAW_LINES, 1, 1, &e), 0);
+		assert_near(1 + lines.inner_step / lines.leaves, 1 + (depth - 2 + ldexp(1, 1 - depth)) / (depth + 1), 1e-12);
+		accel_free(&a);
+		primitives_free(&p);
+	}
+}
+
+/* Same primitive and same t, bit for bit, fast and counted, from every kind of start. */
+static void agrees_with_list(void **state)
+{
+	(void)state;
+	static const struct { const char *family; int size; bool tessellate; } scenes[] = {
+		{ "tetra", 4, false }, { "teapot", 2, false }, { "gears", 2, false }, { "balls", 1, true }, { "balls", 2, false },
+		{ "sphere", 3, false },
+	};
+	for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+		struct primitives p = make_spd(scenes[k].family, scenes[k].size, scenes[k].tessellate);
+		for (int v = 0; v < 4; v++) {
+			struct err e = { 0 };
+			struct accel tree = build(&p, options(v & 1, 2, 8, v & 2 ? ROOT_BOX : ROOT_CUBE)), list;
+			struct ray_source source;
+			int root = v & 2 ? ROOT_BOX : ROOT_CUBE;
+			assert_int_equal(accel_build(&list, accel_find("list"), &root, &p, &e), 0);
+			assert_int_equal(ray_source_open(&source, &tree, WORKLOAD_INVARIANT, 11, &e), 0);
+			for (uint64_t i = 0; i < 5000; i++) {
+				struct ray r = ray_source_draw(&source, i);
+				struct hit fast, counted, truth;
+				struct tally n = { 0 };
+				if (i % 4 == 0) /* from outside, as a camera would */
+					r = (struct ray){ .o = vec_sub(r.o, vec_scale(r.d, 100)), .d = r.d, .t_max = INFINITY,
+						          .slack = r.slack, .from = NO_PRIMITIVE };
+				if (i % 4 == 1) /* a segment */
+					r.t_max = 0.3;
+				bool a = tree.ops->shoot(&tree, &r, &fast), b = tree.ops->shoot_counted(&tree, &r, &counted, &n);
+				bool c = list.ops->shoot(&list, &r, &truth);
+				assert_true(a == c && b == c && n.hits == c);
+				assert_int_equal(fast.id, truth.id);
+				assert_int_equal(counted.id, truth.id);
+				assert_memory_equal(&fast.t, &truth.t, sizeof truth.t);
+				assert_memory_equal(&counted.t, &truth.t, sizeof truth.t);
+			}
+			ray_source_close(&source);
+			accel_free(&tree);
+			accel_free(&list);
+		}
+		primitives_free(&p);
+	}
+}
+
+static void memory_is_bounded(void **state)
+{
+	(void)state;
+	struct primitives p = make_spd("teapot", 12, false);
+	for (int max_objects = 2; max_objects <= 10; max_objects += 8) {
+		struct accel a = build(&p, options(false, max_objects, 8, ROOT_BOX));
+		assert_true((double)a.mem.held / (double)a.leaves < 400);
+		accel_free(&a);
+	}
+	primitives_free(&p);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(every_variant_is_sound),
+		cmocka_unit_test(balancing_is_complete_and_idempotent),
+		cmocka_unit_test(identities_of_octrees),
+		cmocka_unit_test(checkerboard_overhead),
+		cmocka_unit_test(agrees_with_list),
+		cmocka_unit_test(memory_is_bounded),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
