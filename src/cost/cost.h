@@ -1,0 +1,27 @@
+/* Predicted cost of shooting a ray: cells in, numbers out. No ray is looked at. */
+#ifndef COST_COST_H
+#define COST_COST_H
+
+#include "accel/accel.h"
+
+/* The law the rays follow. RAYS: starts on the inner side of the root and on both sides of every primitive, uniform by area,
+ * cosine law, ended by the first hit. LINES: starts on the root only, nothing stops them. */
+enum law { LAW_RAYS, LAW_LINES };
+
+/* Expected counts per ray; costs are alpha * leaves + beta * tests. NAN: no formula. */
+struct prediction {
+	double predicted;           /* E, eq. (3) of Aronov et al. 2002 as printed: one-sided area, surface term dropped */
+	double predicted_two_sided; /* E2: the same with the two-sided area */
+	double predicted_exact;     /* E*: the expected cost, exactly */
+	double leaves, tests;       /* expected counts, exactly */
+	double inner_step, inner_start;
+	double inner_top_down;      /* inner nodes of a recursive front-to-back traversal */
+	double inner_restart;       /* inner nodes where every leaf is found from the root */
+	double area_inside;         /* sum of the surface inside the cells; equals the primitives' area */
+	double area_leaves;         /* sum of the leaves' surface areas */
+};
+
+/* 0, or -1 and *e (memory). */
+int cost_predict(struct prediction *p, const struct accel *a, enum law law, double alpha, double beta, struct err *e);
+
+#endif

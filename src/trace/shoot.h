@@ -1,0 +1,28 @@
+/* Shooting many random rays and summing up what they cost. */
+#ifndef TRACE_SHOOT_H
+#define TRACE_SHOOT_H
+
+#include "accel/accel.h"
+
+/* INVARIANT: the law of cost/cost.h, both sides of every primitive. ONE_SIDED: the front sides only. LINES: from the root only,
+ * nothing stops them. */
+enum workload { WORKLOAD_INVARIANT, WORKLOAD_ONE_SIDED, WORKLOAD_LINES };
+
+/* A mean over rays and its standard error. */
+struct mean {
+	double mean, se;
+};
+
+struct actual {
+	uint64_t rays;
+	struct tally sum; /* exact */
+	struct mean cost, leaves, tests, inner_step, inner_start, hits; /* per ray; cost = alpha leaves + beta tests */
+};
+
+/* Shoot rays 0 .. count-1 of the workload; every number follows from (seed, ray number), whatever the threads.
+ * stop (may be NULL): when it becomes nonzero the run ends early with -1. 0, or -1 and *e: memory, stopped (code
+ * STATUS_ENVIRONMENT, "interrupted"). */
+int shoot_rays(struct actual *out, const struct accel *a, enum workload w, uint64_t count, uint64_t seed, double alpha,
+               double beta, int threads, const volatile int *stop, struct err *e);
+
+#endif

@@ -1,0 +1,181 @@
+/* The project's claim: predicted cost equals the measured mean within sampling error, for every scene and every variant. */
+#include "tests/check.h"
+
+#include "accel/octree.h"
+#include "base/par.h"
+#include "cost/cost.h"
+#include "trace/shoot.h"
+
+enum { RAYS = 200000 };
+
+/* Nothing measured is ever more than four standard errors away; counts that do not vary must agree to rounding. */
+static void compare(const char *what, struct mean actual, double predicted)
+{
+	double far = fabs(actual.mean - predicted);
+	if (far > 4 * actual.se && far > 1e-12 * fabs(predicted))
+		fail_msg("%s: measured %.6f, predicted %.6f, z %.2f", what, actual.mean, predicted,
+		         (actual.mean - predicted) / actual.se);
+}
+
+static void compare_all(const struct accel *a, enum workload w, uint64_t rays, const char *what)
+{
+	struct err e = { 0 };
+	struct prediction p;
+	struct actual actual;
+	char name[160];
+	enum law law = w == WORKLOAD_LINES ? LAW_LINES : LAW_RAYS;
+	if (cost_predict(&p, a, law, 1, 1, &e) != 0 ||
+	    shoot_rays(&actual, a, w, rays, 2002, 1, 1, par_processors(), NULL, &e) != 0)
+		fail_msg("%s", e.text);
+#define COMPARE(field, prediction) do { \
+		snprintf(name, sizeof name, "%s: " #field, what); \
+		compare(name, actual.field, p.prediction); \
+	} while (0)
+	COMPARE(cost, predicted_exact);
+	COMPARE(leaves, leaves);
+	COMPARE(tests, tests);
+	COMPARE(inner_step, inner_step);
+	COMPARE(inner_start, inner_start);
+#undef COMPARE
+}
+
+static void compare_variants(const struct primitives *p, const char *scene, enum workload w, uint64_t rays)
+{
+	for (int v = 0; v < 12; v++) {
+		struct err e = { 0 };
+		struct accel a;
+		const struct octree_options o = { v & 1, (const int[]){ 2, 5, 10 }[v / 4], 8, v & 2 ? ROOT_BOX : ROOT_CUBE,
+			                          OVERLAP_EXACT };
+		char what[120];
+		snprintf(what, sizeof what, "%s balanced=%d max_objects=%d root=%s", scene, o.balanced, (int)o.max_objects,
+		         o.root == ROOT_BOX ? "box" : "cube");
+		if (accel_build(&a, accel_find("octree"), &o, p, &e) != 0)
+			fail_msg("%s", e.text);
+		compare_all(&a, w, rays, what);
+		accel_free(&a);
+	}
+}
+
+struct family {
+	const char *name;
+	bool tessellate;
+};
+
+static void rays_in_spd_scenes(void **state)
+{
+	const struct family *f = *state;
+	for (int size = 1; size <= 2; size++) {
+		char scene[64];
+		snprintf(scene, sizeof scene, "%s-%d", f->name, size);
+		struct primitives p = make_spd(f->name, size, f->tessellate);
+		compare_variants(&p, scene, WORKLOAD_INVARIANT, RAYS);
+		primitives_free(&p);
+	}
+}
+
+static void lines_in_gears(void **state)
+{
+	(void)state;
+	struct primitives p = make_spd("gears", 1, false);
+	compare_variants(&p, "lines in gears-1", WORKLOAD_LINES, RAYS / 2);
+	primitives_free(&p);
+}
+
+/* Boxes whose faces lie in cell planes, twice over: in-plane and coincident at once. */
+static void add_box(struct scene *s, struct vec lo, struct vec hi)
+{
+	static const int face[6][4] = { { 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } };
+	for (int f = 0; f < 6; f++) {
+		struct vec corner[4];
+		for (int i = 0; i < 4; i++) {
+			int k = face[f][i];
+			corner[i] = vec(k & 1 ? hi.x : lo.x, k & 2 ? hi.y : lo.y, k & 4 ? hi.z : lo.z);
+		}
+		scene_add_polygon(s, corner, 4);
+	}
+}
+
+static void faces_in_cell_planes(void **state)
+{
+	(void)state;
+	struct scene s = { 0 };
+	add_box(&s, vec(0, 0, 0), vec(1, 1, 1));
+	add_box(&s, vec(0.25, 0.25, 0.25), vec(0.5, 0.75, 0.625));
+	add_box(&s, vec(0.25, 0.25, 0.25), vec(0.5, 0.75, 0.625));
+	add_box(&s, vec(0.3, 0.3, 0.3), vec(0.5, 0.75, 0.625));
+	add_box(&s, vec(0.5, 0.5, 0), vec(0.75, 0.75, 0.25));
+	struct primitives p = make_primitives(&s);
+	compare_variants(&p, "boxes", WORKLOAD_INVARIANT, RAYS);
+	primitives_free(&p);
+}
+
+static void the_list_is_exact_too(void **state)
+{
+	(void)state;
+	static const char *const families[] = { "tetra", "gears", "balls" };
+	for (int i = 0; i < 3; i++) {
+		struct err e = { 0 };
+		struct primitives p = make_spd(families[i], 1, false);
+		struct accel a;
+		int root = ROOT_BOX;
+		assert_int_equal(accel_build(&a, accel_find("list"), &root, &p, &e), 0);
+		compare_all(&a, WORKLOAD_INVARIANT, 20000, families[i]);
+		accel_free(&a);
+		primitives_free(&p);
+	}
+}
+
+static void bounding_box_lists_are_exact_too(void **state)
+{
+	(void)state;
+	struct err e = { 0 };
+	struct primitives p = make_spd("gears", 1, false);
+	struct accel a;
+	const struct octree_options o = { false, 5, 7, ROOT_CUBE, OVERLAP_BBOX };
+	assert_int_equal(accel_build(&a, accel_find("octree"), &o, &p, &e), 0);
+	compare_all(&a, WORKLOAD_INVARIANT, RAYS, "overlap=bbox");
+	accel_free(&a);
+	primitives_free(&p);
+}
+
+/* The same rays, whatever the number of threads: sums are equal, not just near. */
+static void threads_do_not_matter(void **state)
+{
+	(void)state;
+	struct err e = { 0 };
+	struct primitives p = make_spd("teapot", 2, false);
+	struct accel a;
+	struct octree_options o;
+	key_defaults(accel_find("octree")->keys, &o);
+	assert_int_equal(accel_build(&a, accel_find("octree"), &o, &p, &e), 0);
+	struct actual one, other;
+	assert_int_equal(shoot_rays(&one, &a, WORKLOAD_INVARIANT, 30001, 5, 1, 0.5, 1, NULL, &e), 0);
+	for (int threads = 2; threads <= 7; threads += 5) {
+		assert_int_equal(shoot_rays(&other, &a, WORKLOAD_INVARIANT, 30001, 5, 1, 0.5, threads, NULL, &e), 0);
+		assert_memory_equal(&one, &other, sizeof one);
+	}
+	assert_int_equal(shoot_rays(&other, &a, WORKLOAD_INVARIANT, 30001, 6, 1, 0.5, 1, NULL, &e), 0);
+	assert_int_not_equal(one.sum.tests, other.sum.tests);
+	accel_free(&a);
+	primitives_free(&p);
+}
+
+int main(void)
+{
+	static struct family tetra = { "tetra", false }, teapot = { "teapot", false }, gears = { "gears", false },
+	                     soup = { "balls", true }, balls = { "balls", false }, sphere = { "sphere", false };
+	const struct CMUnitTest tests[] = {
+		{ "rays in spd scenes: tetra", rays_in_spd_scenes, NULL, NULL, &tetra },
+		{ "rays in spd scenes: teapot", rays_in_spd_scenes, NULL, NULL, &teapot },
+		{ "rays in spd scenes: gears", rays_in_spd_scenes, NULL, NULL, &gears },
+		{ "rays in spd scenes: balls, tessellated", rays_in_spd_scenes, NULL, NULL, &soup },
+		{ "rays in spd scenes: balls, spheres", rays_in_spd_scenes, NULL, NULL, &balls },
+		{ "rays in spd scenes: sphere", rays_in_spd_scenes, NULL, NULL, &sphere },
+		cmocka_unit_test(lines_in_gears),
+		cmocka_unit_test(faces_in_cell_planes),
+		cmocka_unit_test(the_list_is_exact_too),
+		cmocka_unit_test(bounding_box_lists_are_exact_too),
+		cmocka_unit_test(threads_do_not_matter),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
