@@ -11,10 +11,10 @@ enum status {
 	STATUS_BUSY = 75        /* another run holds the output folder */
 };
 
-/* code == 0 means "no error yet". text is one complete line without the newline. Plain data, owned by the caller. */
+/* code == 0 means "no error yet". text is one complete line without the newline (a job file may have several faults: several lines). Plain data, owned by the caller. */
 struct err {
 	int code;
-	char text[1024];
+	char text[4096];
 };
 
 /* Fill *e with "file:line: message" unless it is already filled; always return -1.

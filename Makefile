@@ -1,0 +1,77 @@
+comma   := ,
+CC      ?= cc
+OPT     ?= -O3
+BUILD   := build/$(if $(SAN),$(subst $(comma),-,$(SAN)),plain)
+WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
+CF       = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(OPT) -g -ffp-contract=off -pthread -Isrc -I. \
+           $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all) $(CFLAGS)
+LIBS    := -lyaml -lz -lm
+FLOORS  := base geom scene spd io accel cost trace batch cli
+PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libcmocka-dev
+VERSION := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
+
+OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c))
+TESTS   := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
+
+# What SIZE holds reaches the sweep as data: not expanded by make, not read by the shell.
+override SIZE := $(value SIZE)
+export SIZE
+
+all: $(BUILD)/raycost ## build the program
+
+deps: ## install what is missing (Debian: apt)
+	@command -v dpkg-query apt-get >/dev/null || { echo "deps: no apt here; needed are: $(PACKAGES)" >&2; exit 1; }; \
+	missing=; for p in $(PACKAGES); do \
+		dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$p"; done; \
+	[ -z "$$missing" ] && exit 0; \
+	root=; [ "$$(id -u)" = 0 ] || root=sudo; \
+	$$root apt-get update -q && $$root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing
+
+test: $(TESTS) $(BUILD)/raycost layers ## run every test; SAN=address,undefined or SAN=thread runs them sanitized
+	@set -e; for t in $(TESTS); do ./$$t; done
+	@RAYCOST=$(BUILD)/raycost sh tests/cli.sh
+
+layers: ## prove that every folder includes only its own floor and those below
+	@sh tests/layers.sh $(FLOORS)
+
+sweep: all ## predicted and actual cost of every octree variant; SIZE=1,2,3 chooses the scenes' sizes
+	@$(BUILD)/raycost run jobs/sweep.yaml $${SIZE:+--set "size=$$SIZE"}
+
+bench: $(BUILD)/tests/bench ## time building and shooting, beside Embree where libembree-dev is installed
+	@./$(BUILD)/tests/bench
+
+golden: export UPDATE_GOLDEN = 1
+golden: test ## rewrite tests/golden/, then read 'git diff'
+
+clean: ## remove what was built (not out/)
+	rm -rf build
+
+help: ## this list
+	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/make \1|\2/p' Makefile | column -t -s '|'
+
+$(BUILD)/raycost: $(BUILD)/src/main.o $(OBJ)
+	$(CC) $(CF) $^ -o $@ $(LIBS)
+
+$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(OBJ)
+	$(CC) $(CF) $^ -o $@ $(LIBS) -lcmocka
+
+EMBREE := $(if $(wildcard /usr/include/embree3/rtcore.h),yes)
+$(BUILD)/tests/bench: $(BUILD)/tests/bench.o $(OBJ)
+	$(CC) $(CF) $^ -o $@ $(LIBS) $(if $(EMBREE),-lembree3)
+$(BUILD)/tests/bench.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
+
+$(BUILD)/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(CF) -MMD -MP -c $< -o $@
+
+# The version is looked up at every build, but main is compiled anew only when it changed.
+$(BUILD)/src/main.o: CFLAGS += -DVERSION='"$(VERSION)"'
+$(BUILD)/src/main.o: $(BUILD)/version
+$(BUILD)/version: .FORCE
+	@mkdir -p $(@D); echo '$(VERSION)' | cmp -s - $@ || echo '$(VERSION)' > $@
+
+-include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d
+
+.PHONY: all deps test layers sweep bench golden clean help .FORCE
+.SECONDARY:
+.DELETE_ON_ERROR:

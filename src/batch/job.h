@@ -1,0 +1,63 @@
+/* A job file: which scenes, structures and measures to combine. A list of values is swept: the job holds every combination. */
+#ifndef BATCH_JOB_H
+#define BATCH_JOB_H
+
+#include "accel/accel.h"
+#include "base/arena.h"
+#include "base/err.h"
+#include "scene/primitives.h"
+#include "spd/spd.h"
+
+/* One scene: generated (family) or read (path). Texts live in the job's arena. */
+struct scene_spec {
+	const char *name;                 /* unique in the job; names its file in scenes/ */
+	const struct spd_family *family;  /* NULL: a file */
+	const char *path;                 /* NULL: generated */
+	struct spd_options spd;           /* also the resolution of curves tessellated here */
+	bool soup, strict;
+	int curves;                       /* enum curves */
+};
+
+struct structure_spec {
+	const struct accel_ops *ops;
+	_Alignas(16) unsigned char options[ACCEL_OPT_MOST];
+};
+
+enum { RAYS_INVARIANT, RAYS_LINES };
+enum { SIDES_TWO, SIDES_ONE };
+
+struct measure_spec {
+	int rays, sides;
+	int64_t count;
+	double alpha, beta;
+};
+
+extern const struct key measure_keys[];
+
+struct job {
+	struct arena mem;
+	const char *name, *text; /* text: of the file, for the manifest */
+	int64_t seed;
+	bool save_scenes;
+	struct scene_spec *scenes;
+	struct structure_spec *structures;
+	struct measure_spec *measures;
+	size_t scene_count, structure_count, measure_count;
+};
+
+/* What the command line adds: settings "NAME=VALUE[,VALUE...]" override variables; many: more than 100,000 rows are meant;
+ * allow_outside: scene files may lie outside the job file's folder. */
+struct job_options {
+	const char *const *settings;
+	size_t setting_count;
+	bool many, allow_outside;
+};
+
+enum { JOB_ROWS_MOST = 100000 };
+
+/* Fill *job (zeroed here) from a file. 0, or -1 and *e: every fault, up to 20, a line each. Free it in any case. */
+int job_read(struct job *job, const char *path, const struct job_options *o, struct err *e);
+
+void job_free(struct job *job);
+
+#endif

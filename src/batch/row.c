@@ -1,0 +1,231 @@
+#include "batch/row.h"
+
+#include "base/rng.h"
+#include "batch/csv.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Part of every key: to be raised when the same inputs give other rows. */
+enum { FORMAT = 1 };
+
+#define AT(field) offsetof(struct row, field)
+#define TEXT(name, text) { #name, COLUMN_TEXT, AT(name), text }
+#define COUNT(name, text) { #name, COLUMN_COUNT, AT(name), text }
+#define REAL(name, field, text) { name, COLUMN_REAL, AT(field), text }
+#define OPTION(name, text) { #name, COLUMN_OPTION, 0, text }
+
+const struct column row_columns[] = {
+	{ "key", COLUMN_KEY, AT(key), "hash of what determines the row: scene content, options, workload, seed" },
+	TEXT(job, "name of the job"),
+	TEXT(scene, "name of the scene; its file is scenes/NAME.nff.gz"),
+	TEXT(family, "generator of the scene; empty for a file"),
+	COUNT(size, "size given to the generator"),
+	COUNT(triangles, "triangles in the scene"),
+	COUNT(spheres, "spheres in the scene"),
+	TEXT(structure, "kind of the structure"),
+	OPTION(balanced, "octree: leaves that share a vertex differ by at most one level"),
+	OPTION(max_objects, "octree: a cell that lists more primitives is split"),
+	OPTION(root, "the region: bounding cube or tight bounding box"),
+	OPTION(max_depth, "octree: cells of this depth are not split"),
+	OPTION(overlap, "octree: exact or bounding-box lists"),
+	TEXT(workload, "invariant, invariant-one-sided or lines"),
+	COUNT(rays, "number of rays shot"),
+	COUNT(seed, "of the job; every random number follows from it"),
+	REAL("alpha", alpha, "cost of a visited leaf"),
+	REAL("beta", beta, "cost of a ray-primitive test"),
+	TEXT(status, "ok or failed"),
+	TEXT(message, "why it failed"),
+	COUNT(nodes, "nodes of the structure, leaves included"),
+	COUNT(leaves, "leaves of the structure"),
+	COUNT(empty_leaves, "leaves that list nothing"),
+	COUNT(references, "entries in all lists"),
+	COUNT(depth, "of the deepest leaf; the root has 0"),
+	REAL("root_area", root_area, "surface area of the root, scene units^2"),
+	REAL("object_area", object_area, "one-sided area of all primitives, scene units^2"),
+	REAL("area_inside", predicted.area_inside, "surface found inside the cells; equals object_area"),
+	REAL("area_leaves", predicted.area_leaves, "sum of the leaves' surface areas, scene units^2"),
+	REAL("predicted", predicted.predicted, "cost a ray by eq. (3) of Aronov et al. 2002 as printed"),
+	REAL("predicted_two_sided", predicted.predicted_two_sided, "the same with both sides of the surface in the denominator"),
+	REAL("predicted_exact", predicted.predicted_exact, "expected cost a ray, exact for the workload"),
+	REAL("predicted_leaves", predicted.leaves, "expected leaves visited a ray"),
+	REAL("predicted_tests", predicted.tests, "expected ray-primitive tests a ray"),
+	REAL("predicted_inner_step", predicted.inner_step, "expected inner nodes a ray while stepping from leaf to leaf"),
+	REAL("predicted_inner_start", predicted.inner_start, "expected inner nodes of the first descent"),
+	REAL("predicted_inner_top_down", predicted.inner_top_down, "expected inner nodes of a recursive front-to-back traversal"),
+	REAL("predicted_inner_restart", predicted.inner_restart, "expected inner nodes where every leaf is found from the root"),
+	REAL("actual", actual.cost.mean, "measured cost a ray: alpha * leaves + beta * tests"),
+	REAL("actual_se", actual.cost.se, "its standard error"),
+	REAL("actual_low", actual_low, "lower end of its 95 % interval"),
+	REAL("actual_high", actual_high, "upper end of its 95 % interval"),
+	REAL("actual_leaves", actual.leaves.mean, "leaves visited a ray"),
+	REAL("actual_leaves_se", actual.leaves.se, "its standard error"),
+	REAL("actual_tests", actual.tests.mean, "ray-primitive tests a ray"),
+	REAL("actual_tests_se", actual.tests.se, "its standard error"),
+	REAL("actual_inner_step", actual.inner_step.mean, "inner nodes visited a ray while stepping from leaf to leaf"),
+	REAL("actual_inner_step_se", actual.inner_step.se, "its standard error"),
+	REAL("actual_inner_start", actual.inner_start.mean, "inner nodes visited by the first descent"),
+	REAL("actual_inner_start_se", actual.inner_start.se, "its standard error"),
+	REAL("actual_hits", actual.hits.mean, "share of rays that end on a primitive"),
+	REAL("actual_hits_se", actual.hits.se, "its standard error"),
+	REAL("ratio", ratio, "predicted / actual"),
+	REAL("ratio_exact", ratio_exact, "predicted_exact / actual"),
+	REAL("z_exact", z_exact, "(actual - predicted_exact) / actual_se"),
+	REAL("z_leaves", z_leaves, "the same for leaves"),
+	REAL("z_tests", z_tests, "the same for tests"),
+	REAL("z_inner_step", z_inner_step, "the same for inner_step"),
+	REAL("z_inner_start", z_inner_start, "the same for inner_start"),
+	REAL("overhead_predicted", overhead_predicted, "vertical motion: (leaves + inner_step) / leaves, predicted"),
+	REAL("overhead_actual", overhead_actual, "vertical motion: (leaves + inner_step) / leaves, measured"),
+	{ 0 }
+};
+
+int row_column(const char *name)
+{
+	for (int i = 0; row_columns[i].name; i++)
+		if (strcmp(row_columns[i].name, name) == 0)
+			return i;
+	return -1;
+}
+
+static uint64_t hash_text(uint64_t hash, const char *text)
+{
+	for (const char *p = text; *p; p++)
+		hash = rng_mix(hash ^ (uint64_t)(unsigned char)*p);
+	return rng_mix(hash);
+}
+
+void structure_print(const struct structure_spec *s, char *out, size_t size)
+{
+	size_t n = (size_t)snprintf(out, size, "%s", s->ops->name);
+	for (const struct key *k = s->ops->keys; k->name && n < size; k++) {
+		char value[64];
+		key_print(k, s->options, value, sizeof value);
+		n += (size_t)snprintf(out + n, size - n, " %s=%s", k->name, value);
+	}
+}
+
+static uint64_t make_key(const struct job *job, const struct scene_spec *scene, const struct structure_spec *structure,
+                         const struct measure_spec *measure, const struct primitives *p)
+{
+	char text[512];
+	uint64_t hash = rng_mix(FORMAT);
+	structure_print(structure, text, sizeof text);
+	hash = hash_text(hash, text);
+	for (const struct key *k = measure_keys; k->name; k++) {
+		key_print(k, measure, text, sizeof text);
+		hash = hash_text(hash, text);
+	}
+	hash = rng_mix(hash ^ (uint64_t)job->seed);
+	hash = hash_text(hash, scene->name);
+	return p ? rng_mix(hash ^ p->hash) : hash;
+}
+
+void row_identify(struct row *r, const struct job *job, const struct scene_spec *scene, const struct structure_spec *structure,
+                  const struct measure_spec *measure, const struct primitives *p)
+{
+	*r = (struct row){ .job = job->name, .scene = scene->name, .structure = structure->ops->name, .spec = structure,
+		           .rays = (uint64_t)measure->count, .seed = (uint64_t)job->seed, .alpha = measure->alpha,
+		           .beta = measure->beta };
+	r->key = make_key(job, scene, structure, measure, p);
+	r->family = scene->family ? scene->family->name : NULL;
+	r->size = ROW_NONE;
+	if (scene->family && scene->family->default_size)
+		r->size = (uint64_t)(scene->spd.size == SPD_DEFAULT_SIZE ? scene->family->default_size : scene->spd.size);
+	r->workload = measure->rays == RAYS_LINES ? "lines" : measure->sides == SIDES_ONE ? "invariant-one-sided" : "invariant";
+	r->triangles = p ? p->triangles : ROW_NONE;
+	r->spheres = p ? p->spheres : ROW_NONE;
+	r->nodes = r->leaves = r->empty_leaves = r->references = r->depth = ROW_NONE;
+	for (const struct column *c = row_columns; c->name; c++)
+		if (c->type == COLUMN_REAL && strcmp(c->name, "alpha") != 0 && strcmp(c->name, "beta") != 0)
+			*(double *)(void *)((char *)r + c->offset) = NAN;
+}
+
+/* Deviation in standard errors. A count that does not vary is right when it agrees but for rounding; a deviation then has no scale
+ * and is infinite, which prints as a very large number. */
+static double deviation(struct mean actual, double predicted)
+{
+	double far = actual.mean - predicted;
+	if (actual.se > 0)
+		return far / actual.se;
+	return fabs(far) <= 1e-12 * fabs(predicted) ? 0 : copysign(1e9, far);
+}
+
+void row_complete(struct row *r, const struct accel *a, const struct prediction *p, const struct actual *actual,
+                  const struct measure_spec *measure)
+{
+	r->status = "ok";
+	r->nodes = a->nodes;
+	r->leaves = a->leaves;
+	r->empty_leaves = a->empty_leaves;
+	r->references = a->references;
+	r->depth = (uint64_t)a->depth;
+	r->root_area = box_area(&a->root);
+	r->object_area = a->primitives->area;
+	r->predicted = *p;
+	r->actual = *actual;
+	r->actual_low = actual->cost.mean - 1.96 * actual->cost.se;
+	r->actual_high = actual->cost.mean + 1.96 * actual->cost.se;
+	r->ratio = p->predicted / actual->cost.mean;
+	r->overhead_actual = (actual->leaves.mean + actual->inner_step.mean) / actual->leaves.mean;
+	if (measure->rays == RAYS_INVARIANT && measure->sides == SIDES_ONE) {
+		/* Only E as printed says anything about one-sided rays. */
+		struct prediction *q = &r->predicted;
+		q->predicted_two_sided = q->predicted_exact = q->leaves = q->tests = q->inner_step = q->inner_start =
+			q->inner_top_down = q->inner_restart = NAN;
+		return;
+	}
+	r->ratio_exact = p->predicted_exact / actual->cost.mean;
+	r->z_exact = deviation(actual->cost, p->predicted_exact);
+	r->z_leaves = deviation(actual->leaves, p->leaves);
+	r->z_tests = deviation(actual->tests, p->tests);
+	r->z_inner_step = deviation(actual->inner_step, p->inner_step);
+	r->z_inner_start = deviation(actual->inner_start, p->inner_start);
+	r->overhead_predicted = (p->leaves + p->inner_step) / p->leaves;
+}
+
+static void print_field(const struct row *r, const struct column *c, char *out, size_t size)
+{
+	const void *at = (const char *)r + c->offset;
+	const struct key *option;
+	*out = '\0';
+	switch (c->type) {
+	case COLUMN_TEXT:
+		snprintf(out, size, "%s", *(const char *const *)at ? *(const char *const *)at : "");
+		break;
+	case COLUMN_COUNT:
+		if (*(const uint64_t *)at != ROW_NONE)
+			snprintf(out, size, "%" PRIu64, *(const uint64_t *)at);
+		break;
+	case COLUMN_REAL:
+		if (isfinite(*(const double *)at))
+			snprintf(out, size, "%.9g", *(const double *)at);
+		break;
+	case COLUMN_KEY:
+		snprintf(out, size, "%016" PRIx64, *(const uint64_t *)at);
+		break;
+	case COLUMN_OPTION:
+		option = key_find(r->spec->ops->keys, c->name);
+		if (option)
+			key_print(option, r->spec->options, out, size);
+		break;
+	}
+}
+
+void row_print(const struct row *r, struct text *line)
+{
+	char field[4096];
+	for (const struct column *c = row_columns; c->name; c++) {
+		print_field(r, c, field, sizeof field);
+		csv_add(line, field, c == row_columns);
+	}
+	text_add(line, "\n", 1);
+}
+
+void row_print_head(struct text *line)
+{
+	for (const struct column *c = row_columns; c->name; c++)
+		csv_add(line, c->name, c == row_columns);
+	text_add(line, "\n", 1);
+}

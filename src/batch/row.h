@@ -1,0 +1,57 @@
+/* One row of the record, and the one table of its columns: what writes, reads and documents them. */
+#ifndef BATCH_ROW_H
+#define BATCH_ROW_H
+
+#include "batch/job.h"
+#include "cost/cost.h"
+#include "io/text.h"
+#include "trace/shoot.h"
+
+/* Everything a row says. Texts are borrowed; NULL, ROW_NONE and NAN mean "not applicable" and print as nothing. */
+#define ROW_NONE UINT64_MAX
+
+struct row {
+	const char *job, *scene, *family, *structure, *workload, *status, *message;
+	uint64_t key, size, triangles, spheres, rays, seed;
+	uint64_t nodes, leaves, empty_leaves, references, depth;
+	double alpha, beta, root_area, object_area;
+	struct prediction predicted;
+	struct actual actual;
+	double actual_low, actual_high;
+	double ratio, ratio_exact, z_exact, z_leaves, z_tests, z_inner_step, z_inner_start;
+	double overhead_predicted, overhead_actual;
+	const struct structure_spec *spec; /* for the columns that are options */
+};
+
+enum column_type { COLUMN_TEXT, COLUMN_COUNT, COLUMN_REAL, COLUMN_KEY, COLUMN_OPTION };
+
+struct column {
+	const char *name;
+	enum column_type type;
+	size_t offset; /* in struct row; COLUMN_OPTION: unused */
+	const char *text;
+};
+
+/* Ends with a NULL name. */
+extern const struct column row_columns[];
+
+/* Number of the column called 'name', or -1. */
+int row_column(const char *name);
+
+/* Identify the combination: everything that does not have to be computed. p may be NULL: the scene could not be had; then the key
+ * follows from the scene's name. */
+void row_identify(struct row *r, const struct job *job, const struct scene_spec *scene, const struct structure_spec *structure,
+                  const struct measure_spec *measure, const struct primitives *p);
+
+/* Fill in what was built, predicted and measured, and what follows from it. */
+void row_complete(struct row *r, const struct accel *a, const struct prediction *p, const struct actual *actual,
+                  const struct measure_spec *measure);
+
+/* The row, or the head, as a line of CSV with its newline. */
+void row_print(const struct row *r, struct text *line);
+void row_print_head(struct text *line);
+
+/* "octree balanced=false max_objects=2 ...", into out[size]. */
+void structure_print(const struct structure_spec *s, char *out, size_t size);
+
+#endif

@@ -1,0 +1,118 @@
+#include "batch/summary.h"
+
+#include "batch/csv.h"
+#include "batch/row.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct range {
+	double low, high;
+};
+
+/* One scene's rows so far. */
+struct digest {
+	size_t rows, failed;
+	char triangles[24], best[160];
+	double cost; /* of the best */
+	struct range ratio, exact, overhead;
+	double worst; /* |z| over all exact comparisons */
+};
+
+static double number(const char *row, const char *column)
+{
+	char field[64];
+	if (!csv_field(row, row_column(column), field, sizeof field) || !*field)
+		return NAN;
+	return strtod(field, NULL);
+}
+
+static void widen(struct range *r, double x)
+{
+	r->low = x < r->low ? x : r->low;
+	r->high = x > r->high ? x : r->high;
+}
+
+/* The options of the row's structure that a job can vary, "balanced=true ...". */
+static void name_variant(const char *row, char *out, size_t size)
+{
+	char field[64];
+	csv_field(row, row_column("structure"), field, sizeof field);
+	size_t n = (size_t)snprintf(out, size, "%s", field);
+	for (const struct column *c = row_columns; c->name && n < size; c++)
+		if (c->type == COLUMN_OPTION && strcmp(c->name, "overlap") != 0 && csv_field(row, row_column(c->name), field, sizeof field) &&
+		    *field)
+			n += (size_t)snprintf(out + n, size - n, " %s=%s", c->name, field);
+}
+
+static void digest_row(struct digest *d, const char *row)
+{
+	static const char *const deviations[] = { "z_exact", "z_leaves", "z_tests", "z_inner_step", "z_inner_start" };
+	char status[16];
+	d->rows++;
+	csv_field(row, row_column("triangles"), d->triangles, sizeof d->triangles);
+	csv_field(row, row_column("status"), status, sizeof status);
+	if (strcmp(status, "ok") != 0) {
+		d->failed++;
+		return;
+	}
+	double cost = number(row, "actual");
+	if (cost < d->cost) {
+		d->cost = cost;
+		name_variant(row, d->best, sizeof d->best);
+	}
+	widen(&d->ratio, number(row, "ratio"));
+	widen(&d->exact, number(row, "ratio_exact"));
+	widen(&d->overhead, number(row, "overhead_actual"));
+	for (size_t i = 0; i < sizeof deviations / sizeof *deviations; i++)
+		d->worst = fmax(d->worst, fabs(number(row, deviations[i])));
+}
+
+static void print_range(struct text *out, struct range r)
+{
+	if (r.low <= r.high)
+		text_print(out, "  %6.4f..%-6.4f", r.low, r.high);
+	else
+		text_print(out, "  %-14s", "");
+}
+
+static struct digest digest_scene(const char *rows, const char *scene)
+{
+	const struct range none = { INFINITY, -INFINITY };
+	struct digest d = { .cost = INFINITY, .ratio = none, .exact = none, .overhead = none };
+	char field[600];
+	for (const char *row = strchr(rows, '\n') + 1; *row; row = strchr(row, '\n') + 1)
+		if (csv_field(row, row_column("scene"), field, sizeof field) && strcmp(field, scene) == 0)
+			digest_row(&d, row);
+	return d;
+}
+
+void summary_print(struct text *out, const struct job *job, const char *rows, const char *folder)
+{
+	size_t all = 0, failed = 0;
+	double worst = 0;
+	int width = 5;
+	for (size_t i = 0; i < job->scene_count; i++)
+		width = (int)strlen(job->scenes[i].name) > width ? (int)strlen(job->scenes[i].name) : width;
+	text_print(out, "%-*s %9s %5s  %9s  %-14s  %-14s  %-14s  %5s  %s\n", width, "scene", "triangles", "rows", "best cost",
+	           "ratio", "ratio_exact", "overhead", "|z|", "best variant");
+	for (size_t i = 0; i < job->scene_count; i++) {
+		struct digest d = digest_scene(rows, job->scenes[i].name);
+		text_print(out, "%-*s %9s %5zu", width, job->scenes[i].name, d.triangles, d.rows);
+		if (d.failed < d.rows)
+			text_print(out, "  %9.3f", d.cost);
+		else
+			text_print(out, "  %9s", "failed");
+		print_range(out, d.ratio);
+		print_range(out, d.exact);
+		print_range(out, d.overhead);
+		text_print(out, "  %5.2f  %s\n", d.worst, d.best);
+		all += d.rows;
+		failed += d.failed;
+		worst = fmax(worst, d.worst);
+	}
+	text_print(out, "%zu rows, %zu failed; largest deviation from an exact prediction: %.2f standard errors; see %s/counts.csv\n",
+	           all, failed, worst, folder);
+}

@@ -1,0 +1,36 @@
+/* The subcommands: each is one file with a row in cli_commands. */
+#ifndef CLI_CLI_H
+#define CLI_CLI_H
+
+#include "base/err.h"
+#include "io/text.h"
+
+#include <stdbool.h>
+
+/* What every subcommand is given. */
+struct cli {
+	const char *version;
+	const volatile int *stop; /* becomes the number of a signal that wants the program to end */
+	struct text out;          /* for stdout; written by main when the command ends */
+};
+
+/* run gets the arguments after the subcommand's name, NULL-terminated; it returns an exit status, and fills *e with the message when
+ * that is not 0 (STATUS_PARTIAL may come without one). */
+struct cli_command {
+	const char *name, *text, *help;
+	int (*run)(struct cli *cli, int count, char **arguments, struct err *e);
+};
+
+extern const struct cli_command *const cli_commands[]; /* NULL-terminated */
+
+/* The whole program but for signals: pick the subcommand, run it, print what it said. Returns the exit status. */
+int cli_main(struct cli *cli, int count, char **arguments);
+
+/* "raycost NAME: message; see raycost NAME --help", STATUS_INPUT. Returns STATUS_INPUT. */
+__attribute__((format(printf, 3, 4)))
+int cli_usage(struct err *e, const char *command, const char *fmt, ...);
+
+/* A whole number from low to high; false if it is none. */
+bool cli_integer(const char *text, long long low, long long high, long long *out);
+
+#endif
