@@ -29,7 +29,7 @@ enum { TOKEN_MOST = 64 };
 struct reader {
 	struct scene *scene;
 	const char *name, *at, *end;
-	long line;
+	long line, record; /* where it is; where the record at hand starts */
 	char token[TOKEN_MOST]; /* the one last read, NUL-terminated; empty at the end of the file */
 	const char *token_at;   /* where it starts */
 	bool strict;
@@ -37,15 +37,15 @@ struct reader {
 	struct err *err;
 };
 
-__attribute__((format(printf, 2, 3)))
-static int refuse(struct reader *r, const char *fmt, ...)
+__attribute__((format(printf, 3, 4)))
+static int refuse(struct reader *r, long line, const char *fmt, ...)
 {
 	char why[256];
 	va_list args;
 	va_start(args, fmt);
 	vsnprintf(why, sizeof why, fmt, args);
 	va_end(args);
-	return err_at(r->err, STATUS_INPUT, r->name, r->line, "%s", why);
+	return err_at(r->err, STATUS_INPUT, r->name, line, "%s", why);
 }
 
 static bool is_space(char c)
@@ -82,9 +82,9 @@ static int next_token(struct reader *r)
 	for (; r->at < r->end && !is_space(*r->at) && *r->at != '#'; r->at++) {
 		unsigned char c = (unsigned char)*r->at;
 		if (c < 0x20 || c >= 0x7f)
-			return refuse(r, "binary data (byte 0x%02x), not NFF", c);
+			return refuse(r, r->line, "binary data (byte 0x%02x), not NFF", c);
 		if (n + 1 == sizeof r->token)
-			return refuse(r, "a word of more than %d characters", TOKEN_MOST - 1);
+			return refuse(r, r->line, "a word of more than %d characters", TOKEN_MOST - 1);
 		r->token[n++] = *r->at;
 	}
 	r->token[n] = '\0';
@@ -156,9 +156,9 @@ static int read_numbers(struct reader *r, const char *what, double *x, int n)
 		if (next_token(r) != 0)
 			return -1;
 		if (!*r->token)
-			return refuse(r, "the file ends within %s", what);
+			return refuse(r, r->line, "the file ends within %s", what);
 		if (!parse_number(r->token, &x[i]))
-			return refuse(r, "%s: '%s' is not a number", what, r->token);
+			return refuse(r, r->line, "%s: '%s' is not a number", what, r->token);
 	}
 	return 0;
 }
@@ -188,7 +188,7 @@ static int read_more(struct reader *r, double *x, int most)
 static void note_skipped(struct reader *r)
 {
 	if (r->skipped->records++ == 0)
-		r->skipped->first_line = (uint32_t)r->line;
+		r->skipped->first_line = (uint32_t)r->record;
 }
 
 static int read_view(struct reader *r)
@@ -210,7 +210,7 @@ static int read_view(struct reader *r)
 	put_back(r);
 	for (int i = 0; i < 2; i++)
 		if (!(x[5][i] >= 1 && x[5][i] <= 1e6 && x[5][i] == floor(x[5][i])))
-			return refuse(r, "resolution: %g is not a whole number from 1 to 1000000", x[5][i]);
+			return refuse(r, r->record, "resolution: %g is not a whole number from 1 to 1000000", x[5][i]);
 	scene_set_view(r->scene, vec(x[0][0], x[0][1], x[0][2]), vec(x[1][0], x[1][1], x[1][2]), vec(x[2][0], x[2][1], x[2][2]),
 	               x[3][0], x[4][0], (int)x[5][0], (int)x[5][1]);
 	return 0;
@@ -239,7 +239,7 @@ static int read_light(struct reader *r)
 	else if (n == 0)
 		scene_add_light(r->scene, at);
 	else
-		return refuse(r, "a light has 3 or 6 numbers, not %d", 3 + n);
+		return refuse(r, r->record, "a light has 3 or 6 numbers, not %d", 3 + n);
 	return 0;
 }
 
@@ -251,7 +251,7 @@ static int read_material(struct reader *r)
 		return -1;
 	while ((n = read_more(r, &ignored, 1)) == 1)
 		if (r->strict)
-			return refuse(r, "a material has 8 numbers");
+			return refuse(r, r->record, "a material has 8 numbers");
 	scene_add_material(r->scene, (struct material){ { x[0], x[1], x[2] }, x[3], x[4], x[5], x[6], x[7] });
 	return n;
 }
@@ -263,7 +263,7 @@ static int read_sphere(struct reader *r)
 		return -1;
 	if (x[3] == 0) {
 		if (r->strict)
-			return refuse(r, "a sphere of radius 0");
+			return refuse(r, r->record, "a sphere of radius 0");
 		note_skipped(r);
 		return 0;
 	}
@@ -277,12 +277,12 @@ static int read_cone(struct reader *r)
 	if (read_numbers(r, "a cone", x, 8) != 0)
 		return -1;
 	if (x[3] * x[7] < 0)
-		return refuse(r, "a cone with radii %g and %g of different sign", x[3], x[7]);
+		return refuse(r, r->record, "a cone with radii %g and %g of different sign", x[3], x[7]);
 	struct vec base = vec(x[0], x[1], x[2]), apex = vec(x[4], x[5], x[6]);
 	if (vec_length(vec_sub(apex, base)) == 0)
-		return refuse(r, "a cone whose base is its apex");
+		return refuse(r, r->record, "a cone whose base is its apex");
 	if (x[3] == 0 && x[7] == 0)
-		return refuse(r, "a cone with both radii 0");
+		return refuse(r, r->record, "a cone with both radii 0");
 	scene_add_cone(r->scene, base, x[3], apex, x[7]);
 	return 0;
 }
@@ -294,10 +294,10 @@ static int read_corners(struct reader *r, const char *what, int numbers)
 	if (read_numbers(r, what, &count, 1) != 0)
 		return -1;
 	if (!(count >= 0 && count == floor(count)))
-		return refuse(r, "%s of %g corners", what, count);
+		return refuse(r, r->record, "%s of %g corners", what, count);
 	size_t fits = (size_t)(r->end - r->at) / (2 * (size_t)numbers) + 1;
 	if (count > (double)fits || count > INT_MAX)
-		return refuse(r, "%s of %.0f corners cannot fit in the rest of the file", what, count);
+		return refuse(r, r->record, "%s of %.0f corners cannot fit in the rest of the file", what, count);
 	size_t n = (size_t)count;
 	struct vec few[2 * 16], *p = n <= 16 ? few : malloc(2 * n * sizeof *p);
 	if (!p)
@@ -310,7 +310,7 @@ static int read_corners(struct reader *r, const char *what, int numbers)
 	}
 	if (status == 0 && n < 3) {
 		if (r->strict)
-			status = refuse(r, "%s of %zu corners", what, n);
+			status = refuse(r, r->record, "%s of %zu corners", what, n);
 		note_skipped(r);
 	} else if (status == 0 && numbers == 6) {
 		scene_add_patch(r->scene, p, p + n, n);
@@ -343,14 +343,15 @@ static const struct record {
 
 static int read_record(struct reader *r)
 {
+	r->record = r->line;
 	for (size_t i = 0; i < sizeof records / sizeof *records; i++)
 		if (strcmp(r->token, records[i].word) == 0 || strcmp(r->token, records[i].spelled) == 0)
 			return records[i].read(r);
 	double x;
 	if (parse_number(r->token, &x))
-		return refuse(r, "the number '%s' where a keyword should be", r->token);
+		return refuse(r, r->record, "the number '%s' where a keyword should be", r->token);
 	if (r->strict)
-		return refuse(r, "unknown keyword '%s'; known are v b l f s c p pp", r->token);
+		return refuse(r, r->record, "unknown keyword '%s'; known are v b l f s c p pp", r->token);
 	note_skipped(r);
 	skip_line(r);
 	return 0;
@@ -370,7 +371,7 @@ int nff_read(struct scene *s, const char *name, const char *text, size_t n, bool
 		if (!*r.token)
 			return scene_complete(s, name, e);
 		if (first && strcmp(r.token, "nff") == 0)
-			return refuse(&r, "this is WorldToolKit (Sense8) NFF, another format of the same name");
+			return refuse(&r, r.line, "this is WorldToolKit (Sense8) NFF, another format of the same name");
 		if (read_record(&r) != 0)
 			return -1;
 		if (s->lost)

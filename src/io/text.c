@@ -63,12 +63,12 @@ void text_free(struct text *t)
 static int report_gz(gzFile f, const char *path, struct err *e)
 {
 	int code;
-	const char *why = gzerror(f, &code);
+	gzerror(f, &code);
 	if (code == Z_ERRNO)
 		return err_at(e, STATUS_ENVIRONMENT, path, 0, "%s", strerror(errno));
 	if (code == Z_MEM_ERROR)
 		return err_memory(e, path);
-	return err_at(e, STATUS_INPUT, path, 0, "damaged or truncated gzip (%s)", why);
+	return err_at(e, STATUS_INPUT, path, 0, "damaged or truncated gzip");
 }
 
 static int read_all(struct text *t, gzFile f, const char *path, size_t limit, struct err *e)
