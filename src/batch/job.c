@@ -64,6 +64,7 @@ struct reader {
 	struct values values;
 	const struct job_options *options;
 	const char *folder; /* of the job file, with the slash, or "" */
+	long line;          /* of the scene at hand */
 	struct key keys[40]; /* of the scene family at hand */
 	struct scene_spec scene;
 	struct structure_spec structure;
@@ -110,7 +111,9 @@ static const char *name_scene(struct reader *r)
 			key_defaults(spd_keys, &defaults);
 			key_print(k, &s->spd, value, sizeof value);
 			key_print(k, &defaults, usual, sizeof usual);
-			if (strcmp(value, usual) != 0)
+			if (strcmp(value, usual) != 0 && k->type == KEY_BOOL)
+				n += (size_t)snprintf(name + n, sizeof name - n, "-%s", *option);
+			else if (strcmp(value, usual) != 0)
 				n += (size_t)snprintf(name + n, sizeof name - n, "-%s-%s", *option, value);
 		}
 		n += (size_t)snprintf(name + n, sizeof name - n, "%s", s->soup ? "-soup" : "");
@@ -129,7 +132,7 @@ static int emit_scene(void *ctx)
 		return err_memory(r->values.err, "job");
 	for (size_t i = 0; i < r->job->scene_count; i++)
 		if (strcmp(r->job->scenes[i].name, s->name) == 0)
-			return values_fault(&r->values, 0, "two scenes are called '%s'", s->name);
+			return values_fault(&r->values, r->line, "two scenes are called '%s'", s->name);
 	void *array = r->job->scenes;
 	int status = append(r, &array, &r->job->scene_count, &r->scene_room, s, sizeof *s);
 	r->job->scenes = array;
@@ -241,10 +244,10 @@ static int emit_file(void *ctx)
 	const char *given = r->scene.path;
 	char path[4096];
 	if (!r->options->allow_outside && leads_out(given))
-		return values_fault(&r->values, 0, "%s lies outside the job file's folder; --allow-outside lets it", given);
+		return values_fault(&r->values, r->line, "%s lies outside the job file's folder; --allow-outside lets it", given);
 	snprintf(path, sizeof path, "%s%s", *given == '/' ? "" : r->folder, given);
 	if (access(path, R_OK) != 0)
-		return values_fault(&r->values, 0, "%s: %s", path, strerror(errno));
+		return values_fault(&r->values, r->line, "%s: %s", path, strerror(errno));
 	r->scene.path = arena_text(&r->job->mem, path, strlen(path));
 	int status = r->scene.path ? emit_scene(r) : err_memory(r->values.err, "job");
 	r->scene.path = given;
@@ -254,6 +257,7 @@ static int emit_file(void *ctx)
 static int read_scene(struct reader *r, const struct yaml_node *entry)
 {
 	const struct yaml_node *spd = yaml_find(entry, "spd");
+	r->line = entry->line;
 	if (entry->kind != YAML_MAP || (!spd && !yaml_find(entry, "file")))
 		return values_fault(&r->values, entry->line, "a scene is {spd: FAMILY, ...} or {file: PATH, ...}");
 	if (spd)

@@ -1,0 +1,124 @@
+#!/bin/sh
+# The program from outside: exit status, messages, the same bytes whatever the threads and however often it is killed.
+# RAYCOST names the program.
+set -u
+raycost=${RAYCOST:-build/plain/raycost}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+passed=0 failed=0
+
+# expect STATUS TEXT COMMAND...: the command must end with STATUS and say TEXT (a fixed string) on stdout or stderr.
+expect() {
+	status=$1 text=$2
+	shift 2
+	"$@" >"$work/stdout" 2>"$work/stderr"
+	got=$?
+	if [ "$got" -ne "$status" ] || ! cat "$work/stdout" "$work/stderr" - <<-END | grep -qF -- "$text"; then
+
+	END
+		echo "FAILED ($got, wanted $status and '$text'): $*"
+		cat "$work/stderr"
+		failed=$((failed + 1))
+	else
+		passed=$((passed + 1))
+	fi
+}
+same() { expect 0 '' cmp "$1" "$2"; }
+
+# The words it understands.
+expect 0 'raycost run' "$raycost" --help
+expect 0 'raycost ' "$raycost" --version
+for command in run spd info columns; do expect 0 "usage: raycost $command" "$raycost" $command --help; done
+expect 2 'no command given' "$raycost"
+expect 2 "no command 'fly'" "$raycost" fly
+expect 2 'no job file given' "$raycost" run
+expect 2 "--threads 0: not a value" "$raycost" run jobs/smoke.yaml --threads 0
+expect 2 "'--frobnicate' is not understood" "$raycost" run jobs/smoke.yaml --frobnicate
+expect 2 'needs a value' "$raycost" run jobs/smoke.yaml --set
+expect 0 'z_exact' "$raycost" columns
+expect 0 'tetra' "$raycost" spd
+expect 2 "no family 'cow'" "$raycost" spd cow
+expect 2 'size 0 is not in 1..13' "$raycost" spd tetra -s 0
+expect 2 'not in 1..13' "$raycost" spd tetra -s 99
+expect 2 'not a resolution' "$raycost" spd balls -t 0
+expect 2 'shells has no -n' "$raycost" spd shells -n 3
+expect 2 'No such file' "$raycost" run nowhere.yaml
+expect 2 'No such file' "$raycost" info nowhere.nff
+expect 2 'not a regular file' "$raycost" info tests
+
+# Scenes through files and back, plain and gzipped; equal content gives equal bytes.
+expect 0 '' "$raycost" spd gears -s 1 -o "$work/gears.nff"
+expect 0 '' "$raycost" spd gears -s 1 -o "$work/gears.nff.gz"
+expect 0 '' "$raycost" spd gears -s 1 -o "$work/again.nff.gz"
+same "$work/gears.nff.gz" "$work/again.nff.gz"
+gzip -dc "$work/gears.nff.gz" >"$work/unpacked.nff"
+same "$work/gears.nff" "$work/unpacked.nff"
+expect 0 '574 triangles' "$raycost" info "$work/gears.nff.gz"
+expect 1 'nowhere' "$raycost" spd tetra -o "$work/nowhere/x.nff"
+for bad in tests/bad/*.nff tests/bad/*.nff.gz; do expect 2 "$(cat "$bad.expect")" "$raycost" info --strict "$bad"; done
+
+# A job: the same bytes for 1, 2 and 7 threads; a second time nothing is done.
+run() { "$raycost" run jobs/smoke.yaml "$@"; }
+expect 0 '48 rows' run --dry-run
+for threads in 1 2 7; do expect 0 '48 rows, 0 failed' run --threads $threads -o "$work/t$threads"; done
+same "$work/t1/counts.csv" "$work/t2/counts.csv"
+same "$work/t1/counts.csv" "$work/t7/counts.csv"
+expect 0 '48 rows, 0 failed' run -o "$work/t1"
+same "$work/t1/counts.csv" "$work/t2/counts.csv"
+expect 0 '"rows_kept": 48' cat "$work/t1/manifest.json"
+
+# Killed at any time, started again: the same file. A torn last line is dropped and done anew.
+for delay in 0.02 0.05 0.1 0.2 0.3; do
+	run -o "$work/killed" >/dev/null 2>&1 &
+	victim=$!
+	sleep $delay
+	kill -9 $victim 2>/dev/null
+	wait $victim 2>/dev/null
+done
+expect 0 '48 rows, 0 failed' run -o "$work/killed"
+same "$work/t1/counts.csv" "$work/killed/counts.csv"
+head -c 9000 "$work/t1/counts.csv" >"$work/killed/counts.csv"
+expect 0 '48 rows, 0 failed' run -o "$work/killed"
+same "$work/t1/counts.csv" "$work/killed/counts.csv"
+
+# Rows of another job are set aside, never mixed in.
+expect 0 '48 rows, 0 failed' run --set size=1,3 -o "$work/killed"
+expect 0 'tetra-2' cat "$work/killed/counts.old.csv"
+expect 1 '' grep -q tetra-2 "$work/killed/counts.csv"
+
+# An ended run says so and goes on later; two runs do not share a folder.
+sed 's/count: 20000/count: 4000000/' jobs/smoke.yaml >"$work/long.yaml"
+"$raycost" run "$work/long.yaml" -o "$work/long" 2>"$work/ended" >/dev/null &
+long=$!
+sleep 0.5
+expect 75 'another run is at work' "$raycost" run "$work/long.yaml" -o "$work/long"
+kill -TERM $long
+wait $long
+expect 143 'the same command goes on' sh -c "cat '$work/ended'; exit $?"
+
+# Where nothing can be written; where nobody listens.
+touch "$work/file"
+expect 1 'Not a directory' run -o "$work/file/out"
+expect 1 'stdout: ' sh -c "'$raycost' columns >/dev/full"
+expect 1 'stdout: ' sh -c "'$raycost' columns >&-"
+
+# A bad scene is a failed row; the others are there.
+printf 's 0 0 0 1\nmesh\n' >"$work/bad.nff"
+printf 's 0 0 0 1\ns 1 2 3 1\n' >"$work/good.nff"
+cat >"$work/mixed.yaml" <<'JOB'
+name: mixed
+scenes: [{file: bad.nff, strict: true}, {file: good.nff}]
+structures: [octree: {max_depth: 2}]
+measure: [{rays: invariant, count: 1000}]
+JOB
+expect 4 '2 rows, 1 failed' "$raycost" run "$work/mixed.yaml" -o "$work/mixed"
+expect 0 "unknown keyword 'mesh'" cat "$work/mixed/counts.csv"
+expect 4 '2 rows, 1 failed' "$raycost" run "$work/mixed.yaml" -o "$work/mixed"
+
+# What make passes on is data.
+expect 2 'is not a whole number' make -s sweep BUILD="$(dirname "$raycost")" SIZE="1,2; touch $work/owned"
+expect 2 'is not a whole number' make -s sweep BUILD="$(dirname "$raycost")" SIZE='$(shell touch '"$work"'/owned)'
+expect 1 '' test -e "$work/owned"
+
+echo "cli: $passed passed, $failed failed"
+[ "$failed" -eq 0 ]
