@@ -2,13 +2,14 @@
 #include "cli/cli.h"
 
 #include <signal.h>
+#include <stdatomic.h>
 
 #ifndef VERSION
 #define VERSION "unknown"
 #endif
 
 /* The number of the signal that asked for the end; written by the handler, read by whoever works. */
-static volatile sig_atomic_t stop;
+static atomic_int stop;
 
 static void note_signal(int number)
 {

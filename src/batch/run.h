@@ -5,12 +5,14 @@
 #include "batch/job.h"
 #include "io/text.h"
 
+#include <stdatomic.h>
+
 struct run_options {
 	const char *folder;       /* output; NULL: out/NAME */
 	const char *version;      /* of the program, for the manifest */
 	int threads;
 	bool fresh;               /* do everything anew */
-	const volatile int *stop; /* becomes the number of a signal that wants the run to end; may be NULL */
+	const atomic_int *stop; /* becomes the number of a signal that wants the run to end; may be NULL */
 };
 
 /* What came of it. */

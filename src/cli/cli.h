@@ -5,12 +5,13 @@
 #include "base/err.h"
 #include "io/text.h"
 
+#include <stdatomic.h>
 #include <stdbool.h>
 
 /* What every subcommand is given. */
 struct cli {
 	const char *version;
-	const volatile int *stop; /* becomes the number of a signal that wants the program to end */
+	const atomic_int *stop; /* becomes the number of a signal that wants the program to end */
 	struct text out;          /* for stdout; written by main when the command ends */
 };
 

@@ -20,7 +20,7 @@ struct run {
 	struct ray_source source;
 	uint64_t count;
 	struct block *blocks;
-	const volatile int *stop;
+	const atomic_int *stop;
 	atomic_bool failed; /* memory ran out */
 };
 
@@ -130,7 +130,7 @@ static void sum_up(struct actual *out, const struct run *run, size_t blocks, dou
 }
 
 int shoot_rays(struct actual *out, const struct accel *a, enum workload w, uint64_t count, uint64_t seed, double alpha,
-               double beta, int threads, const volatile int *stop, struct err *e)
+               double beta, int threads, const atomic_int *stop, struct err *e)
 {
 	struct run run = { .count = count, .stop = stop };
 	size_t blocks = (size_t)((count + BLOCK - 1) / BLOCK);

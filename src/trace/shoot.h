@@ -4,6 +4,8 @@
 
 #include "accel/accel.h"
 
+#include <stdatomic.h>
+
 /* INVARIANT: the law of cost/cost.h, both sides of every primitive. ONE_SIDED: the front sides only. LINES: from the root only,
  * nothing stops them. */
 enum workload { WORKLOAD_INVARIANT, WORKLOAD_ONE_SIDED, WORKLOAD_LINES };
@@ -23,6 +25,6 @@ struct actual {
  * stop (may be NULL): when it becomes nonzero the run ends early with -1. 0, or -1 and *e: memory, stopped (code
  * STATUS_ENVIRONMENT, "interrupted"). */
 int shoot_rays(struct actual *out, const struct accel *a, enum workload w, uint64_t count, uint64_t seed, double alpha,
-               double beta, int threads, const volatile int *stop, struct err *e);
+               double beta, int threads, const atomic_int *stop, struct err *e);
 
 #endif
