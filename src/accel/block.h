@@ -77,20 +77,38 @@ static inline lane_mask block_misses(const struct block *b, const struct block_r
 	return (u < -m) | (v < -m) | (u + v > det + m) | (t < spread(-margin * edge)) | (t > det * spread(limit) + spread(far));
 }
 
-/* Improve *h by the list of n primitives. Hits certainly beyond t = limit may be left out. */
-static inline void block_test(const struct block *b, float edge, const struct primitive *all, uint32_t n, const struct ray *r,
-                              const struct block_ray *br, double limit, struct hit *h)
+/* The ids in 'count' blocks that need the exact test, into ids[count * LANES]; returns how many. Hits certainly beyond t = limit may
+ * be left out, and so is the triangle the ray starts on, which is no hit; a start sphere may be one. */
+static inline uint32_t block_candidates(const struct block *b, uint32_t count, float edge, const struct ray *r,
+                                        const struct block_ray *br, double limit, uint32_t *ids)
 {
-	for (const struct block *end = b + block_count(n); b < end; b++) {
-		double near = h->t < limit ? h->t : limit;
-		lane_mask misses = block_misses(b, br, edge, (float)near);
+	uint32_t n = 0, from = edge == INFINITY ? NO_PRIMITIVE : r->from;
+	for (const struct block *end = b + count; b < end; b++) {
+		lane_mask misses = block_misses(b, br, edge, (float)limit);
 		uint64_t half[2];
 		memcpy(half, &misses, sizeof half);
 		if ((half[0] & half[1]) == UINT64_MAX)
 			continue;
-		for (int k = 0; k < LANES; k++)
-			if (!misses[k])
-				primitive_hit(&all[b->id[k]], b->id[k], r, h);
+		for (int k = 0; k < LANES; k++) {
+			ids[n] = b->id[k];
+			n += misses[k] == 0 && b->id[k] != from;
+		}
+	}
+	return n;
+}
+
+/* Improve *h by the list of n primitives. Hits certainly beyond t = limit may be left out. */
+static inline void block_test(const struct block *b, float edge, const struct primitive *all, uint32_t n, const struct ray *r,
+                              const struct block_ray *br, double limit, struct hit *h)
+{
+	enum { PIECE = 8 };
+	for (uint32_t left = block_count(n); left > 0;) {
+		uint32_t ids[PIECE * LANES], count = left < PIECE ? left : PIECE;
+		uint32_t found = block_candidates(b, count, edge, r, br, h->t < limit ? h->t : limit, ids);
+		for (uint32_t i = 0; i < found; i++)
+			primitive_hit(&all[ids[i]], ids[i], r, h);
+		b += count;
+		left -= count;
 	}
 }
 

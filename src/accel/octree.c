@@ -6,7 +6,10 @@
 #include "accel/walk.h"
 
 /* Enough to cover a miss to memory by the others' work, few enough to stay in the nearest cache. */
-enum { OCTREE_WALKERS = 32 };
+enum { OCTREE_WALKERS = 16 };
+
+/* Blocks a list may have for its candidates to be put off. */
+enum { SHORT_LIST = 4 };
 
 static const char *const root_words[] = { "cube", "box", NULL };
 static const char *const overlap_words[] = { "exact", "bbox", NULL };
@@ -172,6 +175,8 @@ struct crowd {
 	size_t ray[OCTREE_WALKERS];
 	uint8_t visit[OCTREE_WALKERS], test[OCTREE_WALKERS], leave[OCTREE_WALKERS], idle[OCTREE_WALKERS];
 	int visits, tests, leaves, idles;
+	struct candidate { uint32_t id; uint8_t walker; } candidate[OCTREE_WALKERS * SHORT_LIST * LANES];
+	int candidates;
 };
 
 /* Give idle walkers the rays that are left; returns the number of the next one. */
@@ -228,6 +233,31 @@ static void visit_nodes(struct crowd *c, const struct accel *a, const struct oct
 	}
 }
 
+/* Blocks first, for everybody; the few primitives that remain are asked for meanwhile and tested after. */
+static void test_leaves(struct crowd *c, const struct accel *a, const struct octree *o)
+{
+	c->candidates = 0;
+	for (int i = 0; i < c->tests; i++) {
+		struct walker *w = &c->walker[c->test[i]];
+		const struct octree_node *n = w->node;
+		uint32_t ids[SHORT_LIST * LANES], blocks = block_count(n->count);
+		if (blocks > SHORT_LIST) {
+			test_leaf(w, a, o);
+			continue;
+		}
+		uint32_t found = block_candidates(&o->blocks[n->block], blocks, n->edge, w->ray, &w->packed, w->exit + a->slack, ids);
+		for (uint32_t k = 0; k < found; k++) {
+			c->candidate[c->candidates++] = (struct candidate){ ids[k], c->test[i] };
+			__builtin_prefetch(&a->primitives->all[ids[k]]);
+			__builtin_prefetch((const char *)(&a->primitives->all[ids[k]] + 1) - 1);
+		}
+	}
+	for (int i = 0; i < c->candidates; i++) {
+		struct walker *w = &c->walker[c->candidate[i].walker];
+		primitive_hit(&a->primitives->all[c->candidate[i].id], c->candidate[i].id, w->ray, &w->hit);
+	}
+}
+
 /* Those done with a leaf end or go on to the next node. */
 static void leave_leaves(struct crowd *c, const struct accel *a, const struct octree *o, struct hit *h, struct tally *n)
 {
@@ -260,8 +290,7 @@ static void shoot_many(const struct accel *a, const struct ray *r, size_t count,
 		if (c.idles == OCTREE_WALKERS)
 			return;
 		visit_nodes(&c, a, o);
-		for (int i = 0; i < c.tests; i++)
-			test_leaf(&c.walker[c.test[i]], a, o);
+		test_leaves(&c, a, o);
 		leave_leaves(&c, a, o, h, n);
 	}
 }
