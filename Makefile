@@ -47,7 +47,7 @@ clean: ## remove what was built (not out/)
 	rm -rf build
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/make \1|\2/p' Makefile | column -t -s '|'
+	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/\1|\2/p' Makefile | awk -F '|' '{ printf "make %-8s%s\n", $$1, $$2 }'
 
 $(BUILD)/raycost: $(BUILD)/src/main.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS)
