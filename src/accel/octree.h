@@ -1,4 +1,5 @@
-/* The octree's inside, shared by the files that build it (octree_build.c), balance it (octree_balance.c) and walk it (octree.c).
+/* The octree's inside, shared by the files that build it (octree_build.c), balance it (octree_balance.c), list and check its cells
+ * (octree_cells.c) and walk it (octree.c).
  *
  * Cells have integer coordinates on a grid of 2^20 cells a side over the root, whatever the tree's depth: plane i of an axis lies
  * at root.lo + i * step, the same double for every cell that has it as a side. */
