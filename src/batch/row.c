@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Part of every key: to be raised when the same inputs give other rows. */
-enum { FORMAT = 1 };
+enum { FORMAT = 2 };
 
 #define AT(field) offsetof(struct row, field)
 #define TEXT(name, text) { #name, COLUMN_TEXT, AT(name), text }
@@ -32,7 +32,7 @@ const struct column row_columns[] = {
 	OPTION(overlap, "octree: exact or bounding-box lists"),
 	TEXT(workload, "invariant, invariant-one-sided or lines"),
 	COUNT(rays, "number of rays shot"),
-	COUNT(seed, "of the job; every random number follows from it"),
+	COUNT(seed, "of the job; every random number follows from it and the scene"),
 	REAL("alpha", alpha, "cost of a visited leaf"),
 	REAL("beta", beta, "cost of a ray-primitive test"),
 	TEXT(status, "ok or failed"),

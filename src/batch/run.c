@@ -1,6 +1,7 @@
 #include "batch/run.h"
 
 #include "base/progress.h"
+#include "base/rng.h"
 #include "batch/load.h"
 #include "batch/manifest.h"
 #include "batch/record.h"
@@ -91,13 +92,16 @@ static int measure_row(struct run *r, struct row *row, const struct built *built
 	struct prediction predicted;
 	struct actual actual;
 	struct err fault = { 0 };
+	/* Every scene has its own random numbers, so that deviations in one say nothing about another; its variants share them, so
+	 * that they differ by structure only. */
+	uint64_t seed = rng_mix((uint64_t)r->job->seed ^ built->accel.primitives->hash);
 	double start = clock_seconds(), middle;
 	enum law law = m->rays == RAYS_LINES ? LAW_LINES : LAW_RAYS;
 	int status = cost_predict(&predicted, &built->accel, law, m->alpha, m->beta, &fault);
 	middle = clock_seconds();
 	if (status == 0)
-		status = shoot_rays(&actual, &built->accel, workload_of(m), (uint64_t)m->count, (uint64_t)r->job->seed, m->alpha,
-		                    m->beta, r->options->threads, r->options->stop, &fault);
+		status = shoot_rays(&actual, &built->accel, workload_of(m), (uint64_t)m->count, seed, m->alpha, m->beta,
+		                    r->options->threads, r->options->stop, &fault);
 	if (stopped(r) != 0)
 		return -1;
 	if (status != 0)
