@@ -2,6 +2,7 @@
 #include "tests/check.h"
 
 #include "accel/octree.h"
+#include "base/rng.h"
 #include "cost/cost.h"
 #include "trace/rays.h"
 
@@ -114,6 +115,27 @@ static void identities_of_octrees(void **state)
 			assert_true(lines.inner_step < 0.5 * lines.leaves && rays.inner_step < 0.5 * rays.leaves);
 		accel_free(&a);
 		primitives_free(&p);
+	}
+}
+
+/* The grid's last plane is the root's upper side, to the bit: else outer faces would not be known as such. */
+static void roots_end_on_the_grid(void **state)
+{
+	(void)state;
+	for (uint64_t i = 0; i < 20000; i++) {
+		uint64_t key = rng_key(4, 4, i);
+		struct box b, root;
+		for (int k = 0; k < 3; k++) {
+			double lo = (2 * rng_uniform(key, (uint64_t)k) - 1) * ldexp(1, (int)(40 * rng_uniform(key, 3)) - 20);
+			b.lo.a[k] = lo;
+			b.hi.a[k] = lo + rng_uniform(key, 4 + (uint64_t)k) * ldexp(1, (int)(20 * rng_uniform(key, 7)) - 10);
+		}
+		root = root_box(&b, i % 2 ? ROOT_BOX : ROOT_CUBE);
+		for (int k = 0; k < 3; k++) {
+			double step = (root.hi.a[k] - root.lo.a[k]) / OCTREE_CELLS;
+			assert_true(root.lo.a[k] <= b.lo.a[k] && root.hi.a[k] >= b.hi.a[k] && step > 0);
+			assert_true(root.lo.a[k] + OCTREE_CELLS * step == root.hi.a[k]);
+		}
 	}
 }
 
@@ -231,6 +253,7 @@ int main(void)
 		cmocka_unit_test(every_variant_is_sound),
 		cmocka_unit_test(balancing_is_complete_and_idempotent),
 		cmocka_unit_test(identities_of_octrees),
+		cmocka_unit_test(roots_end_on_the_grid),
 		cmocka_unit_test(checkerboard_overhead),
 		cmocka_unit_test(agrees_with_list),
 		cmocka_unit_test(memory_is_bounded),

@@ -11,9 +11,10 @@ struct box root_box(const struct box *bounds, enum root_kind kind)
 			side = 1e-6 * longest;
 		if (side > size.a[i])
 			root.lo.a[i] -= (side - size.a[i]) / 2;
-		while (root.lo.a[i] + side < bounds->hi.a[i])
-			side = nextafter(side, INFINITY);
-		root.hi.a[i] = root.lo.a[i] + side;
+		double hi = fmax(root.lo.a[i] + side, bounds->hi.a[i]);
+		while (root.lo.a[i] + (hi - root.lo.a[i]) != hi)
+			hi = nextafter(hi, INFINITY);
+		root.hi.a[i] = hi;
 	}
 	return root;
 }
