@@ -6,10 +6,14 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+/* Characters of a key. */
+enum { KEY_LENGTH = 16 };
 
 static const char times_head[] = "key,job,scene,structure,seconds_build,seconds_predict,seconds_shoot,rays_per_second,bytes_held,"
                                  "bytes_peak\n";
@@ -129,6 +133,43 @@ static int start_counts(struct record *r, struct err *e)
 	return status == 0 ? open_file(r, "counts.csv", "", false, &r->counts, e) : -1;
 }
 
+/* The next line of a text, or NULL at its end. */
+static const char *next_line(const char *line)
+{
+	const char *end = strchr(line, '\n');
+	return end && end[1] ? end + 1 : NULL;
+}
+
+static int compare_keys(const void *a, const void *b)
+{
+	const char *x = *(const char *const *)a, *y = *(const char *const *)b;
+	return strncmp(x, y, KEY_LENGTH);
+}
+
+/* Index the lines of a text, or only those of status ok. */
+static int make_index(struct line_index *index, const struct text *text, bool ok_only, struct err *e)
+{
+	size_t lines = 0;
+	for (const char *line = text->size ? text->bytes : NULL; line; line = next_line(line))
+		lines++;
+	*index = (struct line_index){ malloc((lines + 1) * sizeof *index->lines), 0 };
+	if (!index->lines)
+		return err_memory(e, "record");
+	for (const char *line = text->size ? text->bytes : NULL; line; line = next_line(line)) {
+		char status[16];
+		if (!ok_only || (csv_field(line, row_column("status"), status, sizeof status) && strcmp(status, "ok") == 0))
+			index->lines[index->count++] = line;
+	}
+	qsort(index->lines, index->count, sizeof *index->lines, compare_keys);
+	return 0;
+}
+
+static const char *find_line(const struct line_index *index, const char *key)
+{
+	const char *const *found = bsearch(&key, index->lines, index->count, sizeof *index->lines, compare_keys);
+	return found ? *found : NULL;
+}
+
 int record_open(struct record *r, const char *folder, bool fresh, struct err *e)
 {
 	*r = (struct record){ .lock = -1, .counts = -1, .times = -1 };
@@ -138,30 +179,14 @@ int record_open(struct record *r, const char *folder, bool fresh, struct err *e)
 		return -1;
 	if (!fresh && read_old(r, e) != 0)
 		return -1;
-	if (start_counts(r, e) != 0)
+	if (make_index(&r->good, &r->old, true, e) != 0 || start_counts(r, e) != 0)
 		return -1;
 	return open_file(r, "times.csv", times_head, fresh, &r->times, e);
 }
 
-/* The next line of a text, or NULL at its end. */
-static const char *next_line(const char *line)
-{
-	const char *end = strchr(line, '\n');
-	return end && end[1] ? end + 1 : NULL;
-}
-
-static bool has_key(const char *line, const char *key)
-{
-	return strncmp(line, key, strlen(key)) == 0 && line[strlen(key)] == ',';
-}
-
 const char *record_find(const struct record *r, const char *key)
 {
-	char status[16];
-	for (const char *line = r->old.size ? r->old.bytes : NULL; line; line = next_line(line))
-		if (has_key(line, key) && csv_field(line, row_column("status"), status, sizeof status) && strcmp(status, "ok") == 0)
-			return line;
-	return NULL;
+	return find_line(&r->good, key);
 }
 
 int record_keep(struct record *r, const char *line, struct err *e)
@@ -192,26 +217,26 @@ int record_time(struct record *r, const char *line, struct err *e)
 }
 
 /* Old rows whose key no combination of this run has. */
-static void list_strangers(const struct record *r, struct text *strangers)
+static int list_strangers(const struct record *r, struct text *strangers, struct err *e)
 {
-	for (const char *line = r->old.size ? r->old.bytes : NULL; line; line = next_line(line)) {
-		char key[32];
-		bool known = false;
-		csv_field(line, 0, key, sizeof key);
-		for (const char *row = r->done.bytes; row && !known; row = next_line(row))
-			known = has_key(row, key);
-		if (!known)
+	struct line_index done;
+	if (make_index(&done, &r->done, false, e) != 0)
+		return -1;
+	for (const char *line = r->old.size ? r->old.bytes : NULL; line; line = next_line(line))
+		if (!find_line(&done, line))
 			text_add(strangers, line, (size_t)(strchr(line, '\n') + 1 - line));
-	}
+	free(done.lines);
+	return strangers->lost ? err_memory(e, "record") : 0;
 }
 
 int record_finish(struct record *r, struct err *e)
 {
 	char path[4096];
 	struct text strangers = { 0 }, head = { 0 };
-	list_strangers(r, &strangers);
 	row_print_head(&head);
-	int status = strangers.size ? append_aside(r, head.bytes, &strangers, e) : 0;
+	int status = list_strangers(r, &strangers, e);
+	if (status == 0 && strangers.size)
+		status = append_aside(r, head.bytes, &strangers, e);
 	make_path(r, "counts.csv", path, sizeof path);
 	if (status == 0)
 		status = text_write_file(&r->done, path, e);
@@ -228,6 +253,7 @@ void record_close(struct record *r)
 		close(r->times);
 	if (r->lock >= 0)
 		close(r->lock);
+	free(r->good.lines);
 	text_free(&r->old);
 	text_free(&r->done);
 }

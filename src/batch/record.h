@@ -9,10 +9,17 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* Lines sorted by their key, the first field. */
+struct line_index {
+	const char **lines;
+	size_t count;
+};
+
 struct record {
 	char folder[3000];
 	int lock, counts, times;   /* open files, -1 if not */
 	struct text old;           /* counts.csv as found, whole lines only, without the head */
+	struct line_index good;    /* its rows of status ok */
 	struct text done;          /* all rows of this run in plan order, with the head */
 	size_t kept, added, failed; /* rows */
 };
