@@ -1,16 +1,13 @@
 #include "batch/job.h"
 
-#include "batch/values.h"
+#include "batch/job_reader.h"
 #include "io/text.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 static const char *const rays_words[] = { "invariant", "lines", NULL };
 static const char *const sides_words[] = { "two", "one", NULL };
-static const char *const curves_words[] = { "keep", "tessellate", NULL };
 
 #define AT(field) offsetof(struct measure_spec, field)
 const struct key measure_keys[] = {
@@ -20,22 +17,6 @@ const struct key measure_keys[] = {
 	{ "count", KEY_INT, AT(count), 1, 1e12, 1e6, NULL, "number of rays" },
 	{ "alpha", KEY_REAL, AT(alpha), 0, 1e9, 1, NULL, "cost of a visited leaf" },
 	{ "beta", KEY_REAL, AT(beta), 0, 1e9, 1, NULL, "cost of a ray-primitive test" },
-	{ 0 }
-};
-#undef AT
-
-/* What a scene entry can say besides the options of its family. */
-#define AT(field) offsetof(struct scene_spec, field)
-static const struct key file_keys[] = {
-	{ "file", KEY_TEXT, AT(path), 0, 0, 0, NULL, "an NFF file, plain or gzipped, relative to the job file" },
-	{ "curves", KEY_WORD, AT(curves), 0, 0, CURVES_KEEP, curves_words, "spheres as they are, or as triangles" },
-	{ "resolution", KEY_INT, AT(spd.resolution), 1, 1000, 3, NULL, "of tessellated curves" },
-	{ "strict", KEY_BOOL, AT(strict), 0, 1, 0, NULL, "refuse what a tolerant reader skips" },
-	{ 0 }
-};
-static const struct key made_keys[] = {
-	{ "soup", KEY_BOOL, AT(soup), 0, 1, 0, NULL, "everything as triangles" },
-	{ "curves", KEY_WORD, AT(curves), 0, 0, CURVES_KEEP, curves_words, "spheres as they are, or as triangles" },
 	{ 0 }
 };
 #undef AT
@@ -58,22 +39,7 @@ static const struct key head_keys[] = {
 	{ 0 }
 };
 
-/* A job being read. 'scene', 'structure' and 'measure' are what the sweep at hand fills in. */
-struct reader {
-	struct job *job;
-	struct values values;
-	const struct job_options *options;
-	const char *folder; /* of the job file, with the slash, or "" */
-	long line;          /* of the scene at hand */
-	struct key keys[40]; /* of the scene family at hand */
-	struct scene_spec scene;
-	struct structure_spec structure;
-	struct measure_spec measure;
-	size_t scene_room, structure_room, measure_room;
-};
-
-/* Append a copy of 'item' to an array of the job. */
-static int append(struct reader *r, void **array, size_t *count, size_t *room, const void *item, size_t size)
+int job_append(struct job_reader *r, void **array, size_t *count, size_t *room, const void *item, size_t size)
 {
 	if (*count >= JOB_ROWS_MOST && !r->options->many)
 		return values_fault(&r->values, 0, "more than %d combinations; --many if they are meant", JOB_ROWS_MOST);
@@ -90,186 +56,26 @@ static int append(struct reader *r, void **array, size_t *count, size_t *room, c
 	return 0;
 }
 
-/* "family-size" and whatever differs from the defaults, or the file's name without its endings. */
-static const char *name_scene(struct reader *r)
-{
-	const struct scene_spec *s = &r->scene;
-	char name[512];
-	size_t n;
-	if (s->path) {
-		const char *slash = strrchr(s->path, '/'), *base = slash ? slash + 1 : s->path;
-		n = (size_t)snprintf(name, sizeof name, "%.*s", (int)(strcspn(base, ".") ? strcspn(base, ".") : strlen(base)), base);
-	} else {
-		int64_t size = s->spd.size == SPD_DEFAULT_SIZE ? s->family->default_size : s->spd.size;
-		n = (size_t)snprintf(name, sizeof name, "%s", s->family->name);
-		if (s->family->default_size)
-			n += (size_t)snprintf(name + n, sizeof name - n, "-%lld", (long long)size);
-		for (const char *const *option = s->family->options; *option; option++) {
-			struct spd_options defaults;
-			char value[64], usual[64];
-			const struct key *k = key_find(spd_keys, *option);
-			key_defaults(spd_keys, &defaults);
-			key_print(k, &s->spd, value, sizeof value);
-			key_print(k, &defaults, usual, sizeof usual);
-			if (strcmp(value, usual) != 0 && k->type == KEY_BOOL)
-				n += (size_t)snprintf(name + n, sizeof name - n, "-%s", *option);
-			else if (strcmp(value, usual) != 0)
-				n += (size_t)snprintf(name + n, sizeof name - n, "-%s-%s", *option, value);
-		}
-		n += (size_t)snprintf(name + n, sizeof name - n, "%s", s->soup ? "-soup" : "");
-	}
-	if (s->curves == CURVES_TESSELLATE && n < sizeof name)
-		n += (size_t)snprintf(name + n, sizeof name - n, "-curves-%lld", (long long)s->spd.resolution);
-	return arena_text(&r->job->mem, name, strlen(name));
-}
-
-static int emit_scene(void *ctx)
-{
-	struct reader *r = ctx;
-	struct scene_spec *s = &r->scene;
-	s->name = name_scene(r);
-	if (!s->name)
-		return err_memory(r->values.err, "job");
-	for (size_t i = 0; i < r->job->scene_count; i++)
-		if (strcmp(r->job->scenes[i].name, s->name) == 0)
-			return values_fault(&r->values, r->line, "two scenes are called '%s'", s->name);
-	void *array = r->job->scenes;
-	int status = append(r, &array, &r->job->scene_count, &r->scene_room, s, sizeof *s);
-	r->job->scenes = array;
-	return status;
-}
-
 static int emit_structure(void *ctx)
 {
-	struct reader *r = ctx;
+	struct job_reader *r = ctx;
 	void *array = r->job->structures;
-	int status = append(r, &array, &r->job->structure_count, &r->structure_room, &r->structure, sizeof r->structure);
+	int status = job_append(r, &array, &r->job->structure_count, &r->structure_room, &r->structure, sizeof r->structure);
 	r->job->structures = array;
 	return status;
 }
 
 static int emit_measure(void *ctx)
 {
-	struct reader *r = ctx;
+	struct job_reader *r = ctx;
 	void *array = r->job->measures;
-	int status = append(r, &array, &r->job->measure_count, &r->measure_room, &r->measure, sizeof r->measure);
+	int status = job_append(r, &array, &r->job->measure_count, &r->measure_room, &r->measure, sizeof r->measure);
 	r->job->measures = array;
 	return status;
 }
 
-/* The map without its entry 'key'; the rest is copied. */
-static const struct yaml_node *without(struct reader *r, const struct yaml_node *map, const char *key)
-{
-	struct yaml_node *first = NULL, **end = &first;
-	for (const struct yaml_node *e = map->first; e; e = e->next) {
-		if (strcmp(e->key, key) == 0)
-			continue;
-		struct yaml_node *copy = NEW(&r->job->mem, struct yaml_node, 1);
-		if (!copy) {
-			err_memory(r->values.err, "job");
-			return NULL;
-		}
-		*copy = *e;
-		copy->next = NULL;
-		*end = copy;
-		end = &copy->next;
-	}
-	return first;
-}
-
-/* Keys of a generated scene: the family's options of spd_keys, shifted to where they lie in a scene_spec, and made_keys. */
-static void list_family_keys(struct reader *r, const struct spd_family *f)
-{
-	size_t n = 0;
-	for (const struct key *k = made_keys; k->name; k++)
-		r->keys[n++] = *k;
-	for (const struct key *k = spd_keys; k->name; k++) {
-		bool takes = strcmp(k->name, "size") == 0 && f->default_size;
-		for (const char *const *option = f->options; *option; option++)
-			takes |= strcmp(*option, k->name) == 0;
-		takes |= strcmp(k->name, "resolution") == 0;
-		if (!takes)
-			continue;
-		r->keys[n] = *k;
-		r->keys[n++].offset += offsetof(struct scene_spec, spd);
-		if (strcmp(k->name, "size") == 0) {
-			r->keys[n - 1].low = f->least_size;
-			r->keys[n - 1].high = f->most_size;
-		}
-	}
-	r->keys[n] = (struct key){ 0 };
-}
-
-static int read_family(struct reader *r, const struct yaml_node *entry, const struct yaml_node *spd)
-{
-	const char *word = values_text(&r->values, spd);
-	const struct spd_family *f = word ? spd_find(word) : NULL;
-	if (!word)
-		return -1;
-	if (!f) {
-		char known[400] = "";
-		for (const struct spd_family *const *k = spd_families; *k; k++) {
-			size_t n = strlen(known);
-			snprintf(known + n, sizeof known - n, "%s%s", n ? ", " : "", (*k)->name);
-		}
-		return values_fault(&r->values, spd->line, "no scene family '%s'; known are: %s", word, known);
-	}
-	r->scene = (struct scene_spec){ .family = f };
-	key_defaults(spd_keys, &r->scene.spd);
-	list_family_keys(r, f);
-	return values_sweep(&r->values, f->name, without(r, entry, "spd"), r->keys, NULL, &r->scene, emit_scene, r);
-}
-
-/* Whether a path, taken from the job file's folder, leads out of it. */
-static bool leads_out(const char *path)
-{
-	int depth = 0;
-	if (*path == '/')
-		return true;
-	for (const char *p = path; *p; p += strcspn(p, "/"), p += *p == '/') {
-		size_t n = strcspn(p, "/");
-		if (n == 2 && p[0] == '.' && p[1] == '.')
-			depth--;
-		else if (n > 0 && !(n == 1 && p[0] == '.'))
-			depth++;
-		if (depth < 0)
-			return true;
-	}
-	return false;
-}
-
-static int emit_file(void *ctx)
-{
-	struct reader *r = ctx;
-	const char *given = r->scene.path;
-	char path[4096];
-	if (!r->options->allow_outside && leads_out(given))
-		return values_fault(&r->values, r->line, "%s lies outside the job file's folder; --allow-outside lets it", given);
-	snprintf(path, sizeof path, "%s%s", *given == '/' ? "" : r->folder, given);
-	if (access(path, R_OK) != 0)
-		return values_fault(&r->values, r->line, "%s: %s", path, strerror(errno));
-	r->scene.path = arena_text(&r->job->mem, path, strlen(path));
-	int status = r->scene.path ? emit_scene(r) : err_memory(r->values.err, "job");
-	r->scene.path = given;
-	return status;
-}
-
-static int read_scene(struct reader *r, const struct yaml_node *entry)
-{
-	const struct yaml_node *spd = yaml_find(entry, "spd");
-	r->line = entry->line;
-	if (entry->kind != YAML_MAP || (!spd && !yaml_find(entry, "file")))
-		return values_fault(&r->values, entry->line, "a scene is {spd: FAMILY, ...} or {file: PATH, ...}");
-	if (spd)
-		return read_family(r, entry, spd);
-	r->scene = (struct scene_spec){ 0 };
-	key_defaults(spd_keys, &r->scene.spd);
-	key_defaults(file_keys, &r->scene);
-	return values_sweep(&r->values, "a file", entry->first, file_keys, NULL, &r->scene, emit_file, r);
-}
-
 /* "list", or a map of one entry: {octree: {...}}. */
-static int read_structure(struct reader *r, const struct yaml_node *entry)
+static int read_structure(struct job_reader *r, const struct yaml_node *entry)
 {
 	const char *name = entry->kind == YAML_SCALAR ? values_text(&r->values, entry) : NULL;
 	const struct yaml_node *options = NULL;
@@ -296,7 +102,7 @@ static int read_structure(struct reader *r, const struct yaml_node *entry)
 	                    emit_structure, r);
 }
 
-static int read_measure(struct reader *r, const struct yaml_node *entry)
+static int read_measure(struct job_reader *r, const struct yaml_node *entry)
 {
 	if (entry->kind != YAML_MAP)
 		return values_fault(&r->values, entry->line, "a measure is {rays: invariant, count: N, ...}");
@@ -305,8 +111,8 @@ static int read_measure(struct reader *r, const struct yaml_node *entry)
 	return values_sweep(&r->values, "a measure", entry->first, measure_keys, NULL, &r->measure, emit_measure, r);
 }
 
-static void read_each(struct reader *r, const struct yaml_node *root, const char *key,
-                      int (*read)(struct reader *, const struct yaml_node *))
+static void read_each(struct job_reader *r, const struct yaml_node *root, const char *key,
+                      int (*read)(struct job_reader *, const struct yaml_node *))
 {
 	const struct yaml_node *list = yaml_find(root, key);
 	if (!list || list->kind != YAML_LIST || !list->first) {
@@ -330,7 +136,7 @@ static int keep_nothing(void *ctx)
 	return 0;
 }
 
-static void read_head(struct reader *r, const struct yaml_node *root)
+static void read_head(struct job_reader *r, const struct yaml_node *root)
 {
 	static const char *const known[] = { "name", "seed", "vars", "scenes", "structures", "measure", "output", NULL };
 	struct head_spec head;
@@ -360,7 +166,7 @@ static void read_head(struct reader *r, const struct yaml_node *root)
 }
 
 /* Replace variables by what the command line sets. */
-static void apply_setting(struct reader *r, struct yaml_node *variables, const char *setting)
+static void apply_setting(struct job_reader *r, struct yaml_node *variables, const char *setting)
 {
 	const char *equals = strchr(setting, '=');
 	struct yaml_node *found = NULL;
@@ -399,7 +205,7 @@ static void apply_setting(struct reader *r, struct yaml_node *variables, const c
 	}
 }
 
-static void read_root(struct reader *r, struct yaml_node *root)
+static void read_root(struct job_reader *r, struct yaml_node *root)
 {
 	struct yaml_node *variables = NULL;
 	if (root->kind != YAML_MAP) {
@@ -419,7 +225,7 @@ static void read_root(struct reader *r, struct yaml_node *root)
 	if (r->values.faults)
 		return;
 	read_head(r, root);
-	read_each(r, root, "scenes", read_scene);
+	read_each(r, root, "scenes", job_read_scene);
 	read_each(r, root, "structures", read_structure);
 	read_each(r, root, "measure", read_measure);
 	double rows = (double)r->job->scene_count * (double)r->job->structure_count * (double)r->job->measure_count;
@@ -430,7 +236,7 @@ static void read_root(struct reader *r, struct yaml_node *root)
 int job_read(struct job *job, const char *path, const struct job_options *o, struct err *e)
 {
 	struct text text = { 0 };
-	struct reader r = { .job = job, .options = o, .values = { .file = path, .mem = &job->mem, .err = e } };
+	struct job_reader r = { .job = job, .options = o, .values = { .file = path, .mem = &job->mem, .err = e } };
 	*job = (struct job){ 0 };
 	if (text_read_file(&text, path, YAML_BYTES, e) == 0) {
 		const char *slash = strrchr(path, '/');
