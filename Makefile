@@ -5,9 +5,9 @@ BUILD   := build/$(if $(SAN),$(subst $(comma),-,$(SAN)),plain)
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
 CF       = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(OPT) -g -ffp-contract=off -pthread -Isrc -I. \
            $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all) $(CFLAGS)
-LIBS    := -lyaml -lz -lm
+LIBS    := -lyaml -lpng -lz -lm
 FLOORS  := base geom scene spd io accel cost trace batch cli
-PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libcmocka-dev
+PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev
 VERSION := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
 
 OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c))

@@ -2,13 +2,14 @@
 
 #include <errno.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-extern const struct cli_command cli_run, cli_spd, cli_info, cli_columns;
+extern const struct cli_command cli_run, cli_render, cli_spd, cli_info, cli_columns;
 
-const struct cli_command *const cli_commands[] = { &cli_run, &cli_spd, &cli_info, &cli_columns, NULL };
+const struct cli_command *const cli_commands[] = { &cli_run, &cli_render, &cli_spd, &cli_info, &cli_columns, NULL };
 
 int cli_usage(struct err *e, const char *command, const char *fmt, ...)
 {
@@ -27,6 +28,43 @@ bool cli_integer(const char *text, long long low, long long high, long long *out
 	errno = 0;
 	*out = strtoll(text, &end, 10);
 	return end != text && *end == '\0' && errno == 0 && *out >= low && *out <= high;
+}
+
+bool cli_set_key(const struct key *k, const char *text, void *target)
+{
+	void *at = (char *)target + k->offset;
+	static const char *const truth[] = { "false", "true", NULL };
+	const char *const *words = k->type == KEY_BOOL ? truth : k->words;
+	int word = 0;
+	char *end;
+	long long n;
+	double x;
+	switch (k->type) {
+	case KEY_INT:
+		if (!cli_integer(text, (long long)k->low, (long long)k->high, &n))
+			return false;
+		*(int64_t *)at = n;
+		return true;
+	case KEY_REAL:
+		x = strtod(text, &end);
+		if (end == text || *end || !(x >= k->low && x <= k->high))
+			return false;
+		*(double *)at = x;
+		return true;
+	case KEY_TEXT:
+		*(const char **)at = text;
+		return true;
+	case KEY_BOOL:
+	case KEY_WORD:
+		while (words[word] && strcmp(words[word], text) != 0)
+			word++;
+		if (words[word] && k->type == KEY_BOOL)
+			*(bool *)at = word == 1;
+		else if (words[word])
+			*(int *)at = word;
+		return words[word] != NULL;
+	}
+	return false;
 }
 
 static void print_help(struct cli *cli)

@@ -3,6 +3,7 @@
 #define CLI_CLI_H
 
 #include "base/err.h"
+#include "base/key.h"
 #include "io/text.h"
 
 #include <stdatomic.h>
@@ -33,5 +34,8 @@ int cli_usage(struct err *e, const char *command, const char *fmt, ...);
 
 /* A whole number from low to high; false if it is none. */
 bool cli_integer(const char *text, long long low, long long high, long long *out);
+
+/* Store a word of the command line at its key's place in the struct 'target'; false if it is no value the key can have. */
+bool cli_set_key(const struct key *k, const char *text, void *target);
 
 #endif

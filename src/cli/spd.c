@@ -3,8 +3,6 @@
 #include "io/nff.h"
 #include "spd/spd.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char help[] =
@@ -44,28 +42,6 @@ static bool has_option(const struct spd_family *f, const char *key)
 	return false;
 }
 
-static bool set_key(const struct key *k, const char *text, void *target)
-{
-	void *at = (char *)target + k->offset;
-	char *end;
-	long long n;
-	if (k->type == KEY_WORD) {
-		int i = 0;
-		while (k->words[i] && strcmp(k->words[i], text) != 0)
-			i++;
-		*(int *)at = i;
-		return k->words[i] != NULL;
-	}
-	if (k->type == KEY_INT) {
-		bool fits = cli_integer(text, (long long)k->low, (long long)k->high, &n);
-		*(int64_t *)at = n;
-		return fits;
-	}
-	double x = strtod(text, &end);
-	*(double *)at = x;
-	return end != text && *end == '\0' && isfinite(x) && x >= k->low && x <= k->high;
-}
-
 static int set_option(struct arguments *a, const char *option, const char *key, const char *value, struct err *e)
 {
 	if (!value)
@@ -73,7 +49,7 @@ static int set_option(struct arguments *a, const char *option, const char *key, 
 	/* Sizes of families without one are taken and ignored, as by the original programs. */
 	if (!has_option(a->family, key) && strcmp(key, "size") != 0)
 		return cli_usage(e, "spd", "%s has no %s", a->family->name, option);
-	if (!set_key(key_find(spd_keys, key), value, &a->options) || (strcmp(key, "size") == 0 && a->options.size < 0))
+	if (!cli_set_key(key_find(spd_keys, key), value, &a->options) || (strcmp(key, "size") == 0 && a->options.size < 0))
 		return cli_usage(e, "spd", "%s %s: not a value it can have", option, value);
 	return 0;
 }

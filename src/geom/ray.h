@@ -11,12 +11,13 @@
 
 /* o + t d, |d| = 1, t in [0, t_max]. from: id of the primitive it starts on, or NO_PRIMITIVE.
  * slack: 1e-9 of the root's diagonal; what lies nearer than that to the start lies at the start.
- * through: a line rather than a ray; primitives are tested, none stops it. */
+ * through: a line rather than a ray; primitives are listed and counted, none stops it.
+ * clear: nothing within slack of the start stops it: a ray of an image leaves all surfaces that coincide where it starts. */
 struct ray {
 	struct vec o, d;
 	double t_max, slack;
 	uint32_t from;
-	bool through;
+	bool through, clear;
 };
 
 /* t at the hit and the id of what was hit; t = t_max, NO_PRIMITIVE before any. */
@@ -30,7 +31,7 @@ struct hit {
  * once. The start primitive itself is the caller's business. */
 static inline bool ray_accepts(const struct ray *r, double t, uint32_t id)
 {
-	return t > r->slack || (t >= -r->slack && (r->from == NO_PRIMITIVE || id > r->from));
+	return t > r->slack || (!r->clear && t >= -r->slack && (r->from == NO_PRIMITIVE || id > r->from));
 }
 
 /* The one order of hits: nearer first, then the lower id. */

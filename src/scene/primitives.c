@@ -13,7 +13,8 @@ struct maker {
 	enum curves curves;
 	int resolution;
 	size_t room;
-	bool lost; /* memory ran out */
+	bool patches; /* the scene has some */
+	bool lost;    /* memory ran out */
 };
 
 static bool reserve(struct maker *m)
@@ -27,11 +28,16 @@ static bool reserve(struct maker *m)
 		return false;
 	}
 	m->out->all = grown;
+	if (m->patches) {
+		m->out->normals = arena_grow(&m->out->mem, m->out->normals, m->out->count, want, sizeof *m->out->normals);
+		m->lost = !m->out->normals;
+	}
 	m->room = want;
-	return true;
+	return !m->lost;
 }
 
-static void add(struct maker *m, const struct primitive *p)
+/* normals: of the three corners, or NULL. */
+static void add(struct maker *m, const struct primitive *p, const struct vec *normals)
 {
 	double area = primitive_area(p);
 	if (!(area > 0) || !isfinite(area)) {
@@ -40,6 +46,8 @@ static void add(struct maker *m, const struct primitive *p)
 	}
 	if (!reserve(m))
 		return;
+	for (int i = 0; normals && i < 3; i++)
+		m->out->normals[m->out->count][i] = normals[i];
 	m->out->all[m->out->count++] = *p;
 	m->out->triangles += p->kind == PRIMITIVE_TRIANGLE;
 	m->out->spheres += p->kind == PRIMITIVE_SPHERE;
@@ -47,13 +55,25 @@ static void add(struct maker *m, const struct primitive *p)
 
 static void add_triangle(struct maker *m, uint32_t material, struct vec a, struct vec b, struct vec c)
 {
-	add(m, &(struct primitive){ .kind = PRIMITIVE_TRIANGLE, .material = material, .triangle = { { a, b, c } } });
+	add(m, &(struct primitive){ .kind = PRIMITIVE_TRIANGLE, .material = material, .triangle = { { a, b, c } } }, NULL);
+}
+
+/* Corners i, j, k of a polygon or patch. */
+static void add_corners(struct maker *m, const struct object *o, const struct vec *p, uint32_t i, uint32_t j, uint32_t k)
+{
+	const struct primitive t = { .kind = PRIMITIVE_TRIANGLE, .material = o->material, .triangle = { { p[i], p[j], p[k] } } };
+	if (o->kind == OBJECT_PATCH) {
+		const struct vec *n = p + o->count;
+		add(m, &t, (const struct vec[3]){ n[i], n[j], n[k] });
+	} else {
+		add(m, &t, NULL);
+	}
 }
 
 static void add_polygon(struct maker *m, const struct object *o, const struct vec *p)
 {
 	if (o->count == 3) {
-		add_triangle(m, o->material, p[0], p[1], p[2]);
+		add_corners(m, o, p, 0, 1, 2);
 		return;
 	}
 	struct arena scratch = { 0 };
@@ -64,7 +84,7 @@ static void add_polygon(struct maker *m, const struct object *o, const struct ve
 		m->lost = true;
 	else
 		for (size_t i = 0; i + 2 < o->count; i++, t += 3)
-			add_triangle(m, o->material, p[t[0]], p[t[1]], p[t[2]]);
+			add_corners(m, o, p, t[0], t[1], t[2]);
 	arena_free(&scratch);
 }
 
@@ -72,7 +92,7 @@ static void add_curve(struct maker *m, const struct object *o, const struct vec 
 {
 	double r0 = fabs(o->radius[0]), r1 = fabs(o->radius[1]);
 	if (o->kind == OBJECT_SPHERE && m->curves == CURVES_KEEP) {
-		add(m, &(struct primitive){ .kind = PRIMITIVE_SPHERE, .material = o->material, .sphere = { p[0], r0 } });
+		add(m, &(struct primitive){ .kind = PRIMITIVE_SPHERE, .material = o->material, .sphere = { p[0], r0 } }, NULL);
 		return;
 	}
 	struct scene curve = { 0 };
@@ -125,6 +145,8 @@ int primitives_make(struct primitives *p, const struct scene *s, enum curves cur
                     struct err *e)
 {
 	struct maker m = { .out = p, .scene = s, .curves = curves, .resolution = resolution };
+	for (size_t i = 0; i < s->object_count; i++)
+		m.patches |= s->objects[i].kind == OBJECT_PATCH;
 	for (size_t i = 0; i < s->object_count && !m.lost; i++) {
 		const struct object *o = &s->objects[i];
 		if (o->kind == OBJECT_POLYGON || o->kind == OBJECT_PATCH)

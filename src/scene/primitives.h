@@ -11,6 +11,7 @@
 struct primitives {
 	struct arena mem; /* owned */
 	struct primitive *all;
+	struct vec (*normals)[3]; /* at the corners of each, any length, zero where flat; NULL: the scene has no patches */
 	uint32_t count, triangles, spheres;
 	uint32_t skipped;  /* degenerate objects and triangles of zero area left out (they have no measure) */
 	struct box bounds; /* of all primitives */

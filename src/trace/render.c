@@ -1,0 +1,425 @@
+#include "trace/render.h"
+
+#include "base/par.h"
+#include "trace/camera.h"
+#include "trace/shade.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Samples traced together; and blocks between two reports of progress, for each thread. */
+enum { BLOCK = 1024, BAND = 16 };
+
+static const char *const sampling_words[] = { "centers", "corners", NULL };
+static const char *const shadows_words[] = { "all", "facing", NULL };
+static const char *const preset_words[] = { "none", "spd", NULL };
+const char *const ray_class_words[] = { "primary", "shadow", "reflected", "refracted", NULL };
+
+#define AT(field) offsetof(struct render_options, field)
+const struct key render_keys[] = {
+	{ "preset", KEY_WORD, AT(preset), 0, 0, PRESET_NONE, preset_words,
+	  "spd: the procedure of the SPD scenes: pixel corners, depth 5, no limit on weight" },
+	{ "width", KEY_INT, AT(width), 1, 16384, 512, NULL, "pixels" },
+	{ "height", KEY_INT, AT(height), 1, 16384, 512, NULL, "pixels" },
+	{ "sampling", KEY_WORD, AT(sampling), 0, 0, SAMPLE_CENTERS, sampling_words, "primary rays through pixel centres or corners" },
+	{ "shadows", KEY_WORD, AT(shadows), 0, 0, SHADOWS_ALL, shadows_words,
+	  "a hit sends shadow rays to all lights, or to those its side of the surface faces" },
+	{ "depth", KEY_INT, AT(depth), 1, 32, 5, NULL, "of the tree of rays; a primary ray has 1" },
+	{ "weight", KEY_REAL, AT(weight), 0, 1, 0, NULL, "rays that could add less than this share to a pixel are not shot" },
+	{ 0 }
+};
+#undef AT
+
+void render_resolve(struct render_options *o)
+{
+	if (o->preset != PRESET_SPD)
+		return;
+	o->sampling = SAMPLE_CORNERS;
+	o->depth = 5;
+	o->weight = 0;
+}
+
+/* Where a ray comes from and what it adds to its sample if nothing lies in its way (shadow), or per light that arrives along it. */
+struct origin {
+	struct color weight;
+	uint32_t sample; /* in the block */
+	uint8_t class, depth;
+};
+
+/* Rays that are shot together. */
+struct wave {
+	struct ray *rays;
+	struct origin *origins;
+	struct hit *hits;
+	struct tally *tallies;
+	size_t count, room;
+};
+
+/* What a block of samples sums up, in integers. */
+struct block_sums {
+	struct class_tally classes[RAY_CLASSES];
+	struct tally square, cross; /* per sample: counts squared, and times the sample's rays */
+	uint64_t rays, rays_square, leaves_tests;
+	struct segment *segments;   /* from malloc, or NULL */
+	size_t segment_count, segment_room;
+};
+
+struct render {
+	const struct scene *scene;
+	const struct accel *accel;
+	const struct render_options *options;
+	const struct render_run *run;
+	struct camera camera;
+	size_t columns, samples, first; /* first: block of the band at hand */
+	struct block_sums *blocks;
+	struct color *colors; /* of every sample */
+	atomic_bool failed;   /* memory ran out */
+};
+
+/* A block at work. */
+struct block {
+	const struct render *render;
+	struct block_sums *sums;
+	struct color *colors;
+	struct tally tally[BLOCK]; /* of every sample */
+	uint32_t rays[BLOCK];
+	struct wave now, next;
+	bool lost;
+};
+
+static bool wave_reserve(struct wave *w)
+{
+	if (w->count < w->room)
+		return true;
+	size_t want = w->room ? 2 * w->room : 4 * BLOCK;
+	void *rays = realloc(w->rays, want * sizeof *w->rays);
+	w->rays = rays ? rays : w->rays;
+	void *origins = realloc(w->origins, want * sizeof *w->origins);
+	w->origins = origins ? origins : w->origins;
+	void *hits = realloc(w->hits, want * sizeof *w->hits);
+	w->hits = hits ? hits : w->hits;
+	void *tallies = realloc(w->tallies, want * sizeof *w->tallies);
+	w->tallies = tallies ? tallies : w->tallies;
+	if (!rays || !origins || !hits || !tallies)
+		return false;
+	w->room = want;
+	return true;
+}
+
+static void wave_free(struct wave *w)
+{
+	free(w->rays);
+	free(w->origins);
+	free(w->hits);
+	free(w->tallies);
+}
+
+static void push(struct block *b, struct wave *w, struct ray r, struct origin from)
+{
+	if (b->lost || !wave_reserve(w)) {
+		b->lost = true;
+		return;
+	}
+	w->rays[w->count] = r;
+	w->origins[w->count++] = from;
+}
+
+static void push_primaries(struct block *b, size_t first, size_t count)
+{
+	const struct render *r = b->render;
+	bool corners = r->options->sampling == SAMPLE_CORNERS;
+	double shift = corners ? 0 : 0.5;
+	for (size_t i = 0; i < count; i++) {
+		double x = ((double)((first + i) % r->columns) + shift) / (double)r->options->width;
+		double y = ((double)((first + i) / r->columns) + shift) / (double)r->options->height;
+		struct ray ray = { .o = r->camera.from, .d = camera_direction(&r->camera, x, y), .t_max = INFINITY,
+			           .slack = r->accel->slack, .from = NO_PRIMITIVE };
+		push(b, &b->now, ray, (struct origin){ { 1, 1, 1 }, (uint32_t)i, RAY_PRIMARY, 1 });
+	}
+}
+
+static void push_shadows(struct block *b, const struct surface_point *p, const struct ray *r, uint32_t id, const struct origin *from)
+{
+	const struct scene *s = b->render->scene;
+	for (size_t i = 0; i < s->light_count; i++) {
+		struct vec toward = vec_sub(s->lights[i].at, p->at);
+		double distance = vec_length(toward);
+		if (distance == 0)
+			continue;
+		toward = vec_unit(toward);
+		if (b->render->options->shadows == SHADOWS_FACING && vec_dot(toward, p->shading) <= 0)
+			continue;
+		struct ray shadow = { .o = p->at, .d = toward, .t_max = distance, .slack = r->slack, .from = id, .clear = true };
+		struct color light = shade_light(s, i, p, r->d, toward);
+		push(b, &b->next, shadow,
+		     (struct origin){ color_times(light, from->weight), from->sample, RAY_SHADOW, from->depth });
+	}
+}
+
+/* The mirrored and the refracted ray. What cannot leave by refraction is mirrored. */
+static void push_bounces(struct block *b, const struct surface_point *p, const struct ray *r, uint32_t id, const struct origin *from)
+{
+	const struct render_options *o = b->render->options;
+	double mirrored = p->material->ks, transmitted = p->material->transmit;
+	double least = o->weight / fmax(fmax(from->weight.r, from->weight.g), fmax(from->weight.b, 1e-300));
+	struct ray ray = { .o = p->at, .t_max = INFINITY, .slack = r->slack, .from = id, .clear = true };
+	if (from->depth >= o->depth)
+		return;
+	if (transmitted > 0 && !refract(p, r->d, &ray.d)) {
+		mirrored += transmitted;
+		transmitted = 0;
+	}
+	if (transmitted > 0 && transmitted >= least)
+		push(b, &b->next, ray, (struct origin){ color_scale(from->weight, transmitted), from->sample, RAY_REFRACTED,
+		                                        (uint8_t)(from->depth + 1) });
+	ray.d = reflect(p, r->d);
+	if (mirrored > 0 && mirrored >= least)
+		push(b, &b->next, ray, (struct origin){ color_scale(from->weight, mirrored), from->sample, RAY_REFLECTED,
+		                                        (uint8_t)(from->depth + 1) });
+}
+
+static void keep_segment(struct block *b, const struct ray *r, const struct hit *h, const struct origin *from, size_t first)
+{
+	struct block_sums *s = b->sums;
+	if (s->segment_count == s->segment_room) {
+		size_t want = s->segment_room ? 2 * s->segment_room : 2 * BLOCK;
+		void *grown = realloc(s->segments, want * sizeof *s->segments);
+		if (!grown) {
+			b->lost = true;
+			return;
+		}
+		s->segments = grown;
+		s->segment_room = want;
+	}
+	struct segment *g = &s->segments[s->segment_count++];
+	*g = (struct segment){ *r, (uint32_t)(first + from->sample), from->class };
+	g->ray.t_max = h->t;
+}
+
+static void add_tally(struct tally *to, const struct tally *n)
+{
+	to->leaves += n->leaves;
+	to->tests += n->tests;
+	to->inner_step += n->inner_step;
+	to->inner_start += n->inner_start;
+	to->hits += n->hits;
+}
+
+static void count_ray(struct block *b, const struct origin *from, const struct tally *n)
+{
+	struct class_tally *c = &b->sums->classes[from->class];
+	c->rays++;
+	if (n->leaves == 0) {
+		c->missed++;
+		return;
+	}
+	add_tally(&c->sum, n);
+	add_tally(&b->tally[from->sample], n);
+	b->rays[from->sample]++;
+}
+
+/* Shoot a wave; what its rays add to the image, and the next wave. */
+static void shoot_wave(struct block *b, size_t first)
+{
+	const struct render *r = b->render;
+	struct wave *w = &b->now;
+	r->accel->ops->shoot_many(r->accel, w->rays, w->count, w->hits, w->tallies);
+	b->next.count = 0;
+	for (size_t i = 0; i < w->count && !b->lost; i++) {
+		const struct origin *from = &w->origins[i];
+		const struct hit *h = &w->hits[i];
+		struct color *color = &b->colors[from->sample];
+		count_ray(b, from, &w->tallies[i]);
+		if (r->run->segments)
+			keep_segment(b, &w->rays[i], h, from, first);
+		if (from->class == RAY_SHADOW) {
+			if (h->id == NO_PRIMITIVE)
+				color_add(color, from->weight);
+		} else if (h->id == NO_PRIMITIVE) {
+			color_add(color, color_times(from->weight, r->scene->background));
+		} else {
+			struct surface_point p = surface_point_make(r->scene, r->accel->primitives, &w->rays[i], h);
+			color_add(color, color_times(from->weight, shade_ambient(r->scene, &p)));
+			push_shadows(b, &p, &w->rays[i], h->id, from);
+			push_bounces(b, &p, &w->rays[i], h->id, from);
+		}
+	}
+	struct wave done = b->now;
+	b->now = b->next;
+	b->next = done;
+}
+
+/* Squares and products of what the samples' rays cost. */
+static void sum_samples(struct block *b, size_t count)
+{
+	struct block_sums *s = b->sums;
+	for (size_t i = 0; i < count; i++) {
+		const struct tally *n = &b->tally[i];
+		uint64_t rays = b->rays[i];
+#define ADD(field) do { s->square.field += n->field * n->field; s->cross.field += n->field * rays; } while (0)
+		ADD(leaves);
+		ADD(tests);
+		ADD(inner_step);
+		ADD(inner_start);
+		ADD(hits);
+#undef ADD
+		s->leaves_tests += n->leaves * n->tests;
+		s->rays += rays;
+		s->rays_square += rays * rays;
+	}
+}
+
+static void render_block(void *ctx, size_t i)
+{
+	struct render *r = ctx;
+	i += r->first;
+	if ((r->run->stop && *r->run->stop) || atomic_load(&r->failed))
+		return;
+	struct block *b = calloc(1, sizeof *b);
+	if (!b) {
+		atomic_store(&r->failed, true);
+		return;
+	}
+	size_t first = i * BLOCK, count = first + BLOCK < r->samples ? BLOCK : r->samples - first;
+	b->render = r;
+	b->sums = &r->blocks[i];
+	b->colors = &r->colors[first];
+	push_primaries(b, first, count);
+	while (b->now.count > 0 && !b->lost)
+		shoot_wave(b, first);
+	sum_samples(b, count);
+	if (b->lost)
+		atomic_store(&r->failed, true);
+	wave_free(&b->now);
+	wave_free(&b->next);
+	free(b);
+}
+
+/* Mean of a ratio estimator and its standard error by the delta method: x summed over samples, x^2, x times rays. */
+static struct mean ratio_mean(double x, double square, double cross, const struct block_sums *all, size_t samples)
+{
+	double rays = (double)all->rays, n = (double)samples;
+	if (rays == 0)
+		return (struct mean){ NAN, NAN };
+	double mean = x / rays, spread = fmax(0, square - 2 * mean * cross + mean * mean * (double)all->rays_square);
+	return (struct mean){ mean, n > 1 ? sqrt(spread * n / (n - 1)) / rays : NAN };
+}
+
+static void sum_up(struct rendering *out, const struct render *r, size_t blocks)
+{
+	struct block_sums all = { 0 };
+	struct actual *a = &out->actual;
+	double alpha = r->run->alpha, beta = r->run->beta;
+	for (size_t i = 0; i < blocks; i++) {
+		const struct block_sums *b = &r->blocks[i];
+		for (int c = 0; c < RAY_CLASSES; c++) {
+			out->classes[c].rays += b->classes[c].rays;
+			out->classes[c].missed += b->classes[c].missed;
+			add_tally(&out->classes[c].sum, &b->classes[c].sum);
+			add_tally(&a->sum, &b->classes[c].sum);
+		}
+		add_tally(&all.square, &b->square);
+		add_tally(&all.cross, &b->cross);
+		all.rays += b->rays;
+		all.rays_square += b->rays_square;
+		all.leaves_tests += b->leaves_tests;
+	}
+	a->rays = all.rays;
+#define MEAN(field) a->field = ratio_mean((double)a->sum.field, (double)all.square.field, (double)all.cross.field, &all, r->samples)
+	MEAN(leaves);
+	MEAN(tests);
+	MEAN(inner_step);
+	MEAN(inner_start);
+	MEAN(hits);
+#undef MEAN
+	double square = alpha * alpha * (double)all.square.leaves + beta * beta * (double)all.square.tests +
+	                2 * alpha * beta * (double)all.leaves_tests;
+	a->cost = ratio_mean(alpha * (double)a->sum.leaves + beta * (double)a->sum.tests, square,
+	                     alpha * (double)all.cross.leaves + beta * (double)all.cross.tests, &all, r->samples);
+}
+
+static unsigned char to_byte(double x)
+{
+	return (unsigned char)(255 * fmin(1, fmax(0, x)) + 0.5);
+}
+
+static void fill_pixels(struct rendering *out, const struct render *r)
+{
+	size_t width = (size_t)r->options->width, height = (size_t)r->options->height;
+	size_t corner = r->options->sampling == SAMPLE_CORNERS;
+	for (size_t y = 0; y < height; y++)
+		for (size_t x = 0; x < width; x++) {
+			struct color sum = { 0 };
+			for (size_t k = 0; k < (corner ? 4u : 1u); k++)
+				color_add(&sum, r->colors[(y + k / 2) * r->columns + x + k % 2]);
+			sum = color_scale(sum, corner ? 0.25 : 1);
+			unsigned char *p = &out->pixels[3 * (y * width + x)];
+			p[0] = to_byte(sum.r);
+			p[1] = to_byte(sum.g);
+			p[2] = to_byte(sum.b);
+		}
+}
+
+static int gather_segments(struct rendering *out, const struct render *r, size_t blocks, struct err *e)
+{
+	size_t count = 0;
+	for (size_t i = 0; i < blocks; i++)
+		count += r->blocks[i].segment_count;
+	out->segments = NEW(&out->mem, struct segment, count);
+	if (!out->segments)
+		return err_memory(e, "pilot image");
+	for (size_t i = 0; i < blocks; i++) {
+		const struct block_sums *b = &r->blocks[i];
+		if (b->segment_count)
+			memcpy(&out->segments[out->segment_count], b->segments, b->segment_count * sizeof *b->segments);
+		out->segment_count += b->segment_count;
+	}
+	return 0;
+}
+
+/* Band after band, with a word about it between them. */
+static int render_blocks(struct render *r, size_t blocks, struct err *e)
+{
+	const struct render_run *run = r->run;
+	size_t band = (size_t)(run->threads > 1 ? run->threads : 1) * BAND;
+	for (r->first = 0; r->first < blocks; r->first += band) {
+		if (run->progress)
+			run->progress(run->ctx, r->first, blocks);
+		par_for(run->threads, blocks - r->first < band ? blocks - r->first : band, render_block, r);
+		if (atomic_load(&r->failed))
+			return err_memory(e, "rendering");
+		if (run->stop && *run->stop)
+			return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "interrupted");
+	}
+	return 0;
+}
+
+int render_scene(struct rendering *out, const struct scene *s, const struct accel *a, const struct render_options *o,
+                 const struct render_run *run, struct err *e)
+{
+	size_t extra = o->sampling == SAMPLE_CORNERS, columns = (size_t)o->width + extra, rows = (size_t)o->height + extra;
+	size_t blocks = (columns * rows + BLOCK - 1) / BLOCK;
+	struct render r = { .scene = s, .accel = a, .options = o, .run = run, .columns = columns, .samples = columns * rows };
+	*out = (struct rendering){ 0 };
+	r.camera = camera_make(&s->view, &a->primitives->bounds, (double)o->width, (double)o->height);
+	r.blocks = NEW(&out->mem, struct block_sums, blocks);
+	r.colors = NEW(&out->mem, struct color, r.samples);
+	out->pixels = NEW(&out->mem, unsigned char, 3 * (size_t)o->width * (size_t)o->height);
+	int status = r.blocks && r.colors && out->pixels ? 0 : err_memory(e, "rendering");
+	if (status == 0)
+		status = render_blocks(&r, blocks, e);
+	if (status == 0) {
+		sum_up(out, &r, blocks);
+		fill_pixels(out, &r);
+		status = run->segments ? gather_segments(out, &r, blocks, e) : 0;
+	}
+	for (size_t i = 0; r.blocks && i < blocks; i++)
+		free(r.blocks[i].segments);
+	return status;
+}
+
+void rendering_free(struct rendering *r)
+{
+	arena_free(&r->mem);
+	*r = (struct rendering){ 0 };
+}

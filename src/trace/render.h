@@ -1,0 +1,80 @@
+/* The ray tracer: an image, and what its rays cost by class.
+ *
+ * A primary ray a sample; every hit sends one shadow ray to every light, which ends there, a mirrored ray where the material has
+ * ks > 0, and a refracted one where it transmits, up to a depth. Which rays there are, and what they hit, does not depend on the
+ * structure. */
+#ifndef TRACE_RENDER_H
+#define TRACE_RENDER_H
+
+#include "accel/accel.h"
+#include "scene/scene.h"
+#include "trace/shoot.h"
+
+#include <stdatomic.h>
+
+/* CENTERS: a sample in the middle of every pixel. CORNERS: one at every pixel corner, (width + 1)(height + 1) of them, the first and
+ * the last on the image's edges; a pixel is the mean of its four. */
+enum render_sampling { SAMPLE_CENTERS, SAMPLE_CORNERS };
+
+/* ALL: every hit sends a shadow ray to every light; FACING: only to the lights its side of the surface faces. */
+enum render_shadows { SHADOWS_ALL, SHADOWS_FACING };
+
+/* PRESET_SPD: the procedure of the SPD scenes: pixel corners, rays to the depth of 5, no limit on their weight. */
+enum render_preset { PRESET_NONE, PRESET_SPD };
+
+struct render_options {
+	int64_t width, height; /* pixels */
+	int64_t depth;         /* a primary ray has 1, one it spawns 2, ...; shadow rays are not limited */
+	double weight;         /* rays that could add less than this share to a pixel are not shot */
+	int sampling, shadows, preset;
+};
+
+/* Ends with a NULL name. */
+extern const struct key render_keys[];
+
+/* What the preset stands for put in the places of the single options. */
+void render_resolve(struct render_options *o);
+
+enum ray_class { RAY_PRIMARY, RAY_SHADOW, RAY_REFLECTED, RAY_REFRACTED, RAY_CLASSES };
+extern const char *const ray_class_words[];
+
+/* One class: its rays, those of them that visit no cell, and what the others cost. */
+struct class_tally {
+	uint64_t rays, missed;
+	struct tally sum;
+};
+
+/* Where a ray ended: r.t_max is where it hit, or its light, or infinite. */
+struct segment {
+	struct ray ray;
+	uint32_t sample;
+	uint8_t class;
+};
+
+struct rendering {
+	struct class_tally classes[RAY_CLASSES];
+	struct actual actual; /* means over the rays that visit a cell; standard errors take the sample as the unit */
+	unsigned char *pixels; /* [height][width][3], 0..255; in mem */
+	struct segment *segments; /* in the order of samples, if wanted; in mem */
+	size_t segment_count;
+	struct arena mem;     /* owned */
+};
+
+/* What a rendering is asked to do besides. */
+struct render_run {
+	double alpha, beta;
+	int threads;
+	bool segments;           /* keep them */
+	const atomic_int *stop;  /* as for shoot_rays */
+	void (*progress)(void *ctx, size_t done, size_t all); /* may be NULL; called by any thread, one at a time */
+	void *ctx;
+};
+
+/* Render scene s, whose primitives 'a' holds; s needs no objects. o is resolved. 0, or -1 and *e: memory, stopped ("interrupted").
+ * Free it in any case. */
+int render_scene(struct rendering *out, const struct scene *s, const struct accel *a, const struct render_options *o,
+                 const struct render_run *run, struct err *e);
+
+void rendering_free(struct rendering *r);
+
+#endif
