@@ -28,3 +28,8 @@ void accel_free(struct accel *a)
 	arena_free(&a->mem);
 	*a = (struct accel){ 0 };
 }
+
+bool accel_applies(const struct accel_ops *ops, const void *opt, const char *key)
+{
+	return key_find(ops->keys, key) && (!ops->applies || ops->applies(opt, key));
+}

@@ -51,6 +51,8 @@ struct accel_ops {
 	const char *name, *text;      /* key in job files; one line for the docs */
 	const struct key *keys;       /* its options; ends with a NULL name */
 	size_t opt_size;
+	/* Whether the option called 'key' means anything beside the others of opt; NULL: all do. */
+	bool (*applies)(const void *opt, const char *key);
 	int (*build)(struct accel *a, const void *opt, struct err *e);
 	/* Every cell in a fixed preorder; returns what fn stopped with, or 0. */
 	int (*cells)(const struct accel *a, cell_fn *fn, void *ctx);
@@ -85,5 +87,8 @@ const struct accel_ops *accel_find(const char *name);
 int accel_build(struct accel *a, const struct accel_ops *ops, const void *opt, const struct primitives *p, struct err *e);
 
 void accel_free(struct accel *a);
+
+/* Whether the structure has an option 'key' that means something beside its others. */
+bool accel_applies(const struct accel_ops *ops, const void *opt, const char *key);
 
 #endif

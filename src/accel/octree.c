@@ -5,6 +5,8 @@
 #include "accel/octree.h"
 #include "accel/walk.h"
 
+#include <string.h>
+
 /* Enough to cover a miss to memory by the others' work, few enough to stay in the nearest cache. */
 enum { OCTREE_WALKERS = 16 };
 
@@ -13,6 +15,7 @@ enum { SHORT_LIST = 4 };
 
 static const char *const root_words[] = { "cube", "box", NULL };
 static const char *const overlap_words[] = { "exact", "bbox", NULL };
+static const char *const criterion_words[] = { "objects", "features", "random", NULL };
 static const struct key keys[] = {
 	{ "balanced", KEY_BOOL, offsetof(struct octree_options, balanced), 0, 1, 0, NULL,
 	  "leaves that share a vertex differ by at most one level" },
@@ -24,6 +27,16 @@ static const struct key keys[] = {
 	  "cells of this depth are not split; the root has depth 0" },
 	{ "overlap", KEY_WORD, offsetof(struct octree_options, overlap), 0, 0, OVERLAP_EXACT, overlap_words,
 	  "what puts a primitive into a cell's list: its surface, or its bounding box, meets the cell" },
+	{ "criterion", KEY_WORD, offsetof(struct octree_options, criterion), 0, 0, CRITERION_OBJECTS, criterion_words,
+	  "what cells are split for: more than max_objects primitives, edges and corners, or chance" },
+	{ "cutoff", KEY_REAL, offsetof(struct octree_options, cutoff), 0, 1, 0, NULL,
+	  "features: cells of at most this share of the root's longest side are not split" },
+	{ "root_level", KEY_INT, offsetof(struct octree_options, root_level), 0, 1, 0, NULL,
+	  "random: level of the root; a cell of level l is split by the chance 2 / l, from level 8 on never" },
+	{ "run", KEY_INT, offsetof(struct octree_options, run), 1, 1e6, 1, NULL, "random: which of the trees" },
+	{ "runs", KEY_INT, offsetof(struct octree_options, runs), 0, 1e6, 0, NULL, "random: runs: 5 is run: [1, 2, 3, 4, 5]" },
+	{ "seed", KEY_INT, offsetof(struct octree_options, seed), 0, 9e15, 0, NULL,
+	  "random: of the chances; in a job the job's seed if not given" },
 	{ 0 }
 };
 
@@ -295,7 +308,20 @@ static void shoot_many(const struct accel *a, const struct ray *r, size_t count,
 	}
 }
 
+static bool applies(const void *opt, const char *key)
+{
+	static const struct { const char *key; int criterion; } only[] = {
+		{ "max_objects", CRITERION_OBJECTS }, { "cutoff", CRITERION_FEATURES }, { "root_level", CRITERION_RANDOM },
+		{ "run", CRITERION_RANDOM }, { "seed", CRITERION_RANDOM }
+	};
+	const struct octree_options *o = opt;
+	for (size_t i = 0; i < sizeof only / sizeof *only; i++)
+		if (strcmp(only[i].key, key) == 0)
+			return o->criterion == only[i].criterion;
+	return strcmp(key, "runs") != 0;
+}
+
 const struct accel_ops accel_octree = {
-	"octree", "cells cut into eight through the centre, leaves linked over their faces", keys, sizeof(struct octree_options),
+	"octree", "cells cut into eight through the centre, leaves linked over their faces", keys, sizeof(struct octree_options), applies,
 	octree_build, octree_cells, shoot, shoot_counted, shoot_many, octree_check
 };

@@ -1,4 +1,4 @@
-/* The octree's inside, shared by the files that build it (octree_build.c), balance it (octree_balance.c), list and check its cells
+/* The octree's inside, shared by the files that build it (octree_build.c) by a criterion (octree_criterion.c), balance it (octree_balance.c), list and check its cells
  * (octree_cells.c) and walk it (octree.c).
  *
  * Cells have integer coordinates on a grid of 2^20 cells a side over the root, whatever the tree's depth: plane i of an axis lies
@@ -15,10 +15,21 @@ enum { OCTREE_LEVELS = 20, OCTREE_CELLS = 1 << OCTREE_LEVELS };
 
 enum octree_overlap { OVERLAP_EXACT, OVERLAP_BBOX };
 
+/* What a cell above max_depth is split for:
+ *   OBJECTS   it lists more than max_objects primitives
+ *   FEATURES  it is larger than the cut-off and meets an edge or a corner of a triangle (Aronov and Fortune, as told by Aronov et
+ *             al. 2002, section 3.3); a sphere has neither
+ *   RANDOM    by chance, 2 / level, always on the first two levels and never from level 8 on (ibid., section 4.3) */
+enum octree_criterion { CRITERION_OBJECTS, CRITERION_FEATURES, CRITERION_RANDOM };
+
+/* Of the options of one criterion the others make nothing; 'runs' is for job files, which make it a list of 'run'. */
 struct octree_options {
 	bool balanced;
 	int64_t max_objects, max_depth;
-	int root, overlap;
+	int root, overlap, criterion;
+	double cutoff;                  /* FEATURES: in sides of the root */
+	int64_t root_level, run, runs;  /* RANDOM */
+	int64_t seed;                   /* RANDOM: with the scene and the run it determines the tree */
 };
 
 /* One cache line. Children stand together, number 4 z + 2 y + x (upper half: 1). */
@@ -65,6 +76,10 @@ static inline uint32_t octree_child_toward(const struct octree_node *n, const in
 	int shift = OCTREE_LEVELS - 1 - n->depth;
 	return n->child + (uint32_t)((at[0] >> shift & 1) | (at[1] >> shift & 1) << 1 | (at[2] >> shift & 1) << 2);
 }
+
+/* Whether node n, whose list is ids[0 .. n->count), is to be split. */
+bool octree_wants_split(const struct primitives *p, const struct box *root, const struct octree *o, const struct octree_node *n,
+                        const uint32_t *ids);
 
 struct box octree_bounds(const struct box *root, const struct octree *o, const struct octree_node *n);
 

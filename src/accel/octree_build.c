@@ -1,4 +1,4 @@
-/* Building an octree: split while a list is longer than max_objects, optionally balance, then lay nodes and lists out depth first
+/* Building an octree: split while the criterion wants it, optionally balance, then lay nodes and lists out depth first
  * and link the leaves. */
 #include "accel/octree.h"
 #include "geom/triangle.h"
@@ -158,10 +158,11 @@ int octree_builder_open(struct octree_builder *b, const struct accel *a, const s
 		b->bounds[i] = primitive_bounds(&a->primitives->all[i]);
 		b->tree.refs[b->tree.ref_count++] = i;
 	}
-	for (uint32_t n = 0; n < b->tree.node_count; n++)
-		if (b->tree.nodes[n].count > o->max_objects && b->tree.nodes[n].depth < o->max_depth &&
-		    octree_split(b, n, e) != 0)
+	for (uint32_t n = 0; n < b->tree.node_count; n++) {
+		const struct octree_node *node = &b->tree.nodes[n];
+		if (octree_wants_split(b->primitives, b->root, &b->tree, node, b->tree.refs + node->first) && octree_split(b, n, e) != 0)
 			return -1;
+	}
 	return 0;
 }
 

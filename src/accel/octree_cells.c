@@ -70,7 +70,7 @@ int octree_check(const struct accel *a, struct err *e)
 		const struct octree_node *n = &o->nodes[i];
 		if (n->child)
 			continue;
-		if (n->count > o->options.max_objects && n->depth < o->options.max_depth)
+		if (octree_wants_split(a->primitives, &a->root, o, n, o->refs + n->first))
 			return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "octree: leaf %u should have been split", i);
 		for (int f = 0; f < 6; f++)
 			if (!link_holds(o, n, f))

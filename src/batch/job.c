@@ -6,26 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const rays_words[] = { "invariant", "lines", NULL };
-static const char *const sides_words[] = { "two", "one", NULL };
-
-#define AT(field) offsetof(struct measure_spec, field)
-const struct key measure_keys[] = {
-	{ "rays", KEY_WORD, AT(rays), 0, 0, RAYS_INVARIANT, rays_words,
-	  "invariant: uniform by area over root and surfaces, cosine law; lines: through the root, nothing stops them" },
-	{ "sides", KEY_WORD, AT(sides), 0, 0, SIDES_TWO, sides_words, "sides of every surface that rays start on" },
-	{ "count", KEY_INT, AT(count), 1, 1e12, 1e6, NULL, "number of rays" },
-	{ "alpha", KEY_REAL, AT(alpha), 0, 1e9, 1, NULL, "cost of a visited leaf" },
-	{ "beta", KEY_REAL, AT(beta), 0, 1e9, 1, NULL, "cost of a ray-primitive test" },
-	{ 0 }
-};
-#undef AT
-
 struct output_spec {
-	bool scenes;
+	bool scenes, images;
 };
 static const struct key output_keys[] = {
 	{ "scenes", KEY_BOOL, offsetof(struct output_spec, scenes), 0, 1, 0, NULL, "keep every scene as scenes/NAME.nff.gz" },
+	{ "images", KEY_BOOL, offsetof(struct output_spec, images), 0, 1, 0, NULL, "keep every rendering as images/NAME.png" },
 	{ 0 }
 };
 
@@ -56,12 +42,39 @@ int job_append(struct job_reader *r, void **array, size_t *count, size_t *room, 
 	return 0;
 }
 
-static int emit_structure(void *ctx)
+static int append_structure(struct job_reader *r)
 {
-	struct job_reader *r = ctx;
 	void *array = r->job->structures;
 	int status = job_append(r, &array, &r->job->structure_count, &r->structure_room, &r->structure, sizeof r->structure);
 	r->job->structures = array;
+	return status;
+}
+
+/* The place of a whole-numbered option of the structure at hand, or NULL where it has none of that name. */
+static int64_t *find_option(struct job_reader *r, const char *name)
+{
+	const struct key *k = key_find(r->structure.ops->keys, name);
+	return k && k->type == KEY_INT ? (int64_t *)(void *)(r->structure.options + k->offset) : NULL;
+}
+
+/* Structures left to chance take the job's seed, and 'runs' of them are as many structures. */
+static int emit_structure(void *ctx)
+{
+	struct job_reader *r = ctx;
+	int64_t *seed = find_option(r, "seed"), *runs = find_option(r, "runs"), *run = find_option(r, "run");
+	if (seed && *seed == 0)
+		*seed = r->job->seed;
+	if (!runs || !run || *runs == 0)
+		return append_structure(r);
+	int64_t count = *runs, first = *run;
+	int status = 0;
+	*runs = 0;
+	for (int64_t i = 0; status == 0 && i < count; i++) {
+		*run = first + i;
+		status = append_structure(r);
+	}
+	*runs = count;
+	*run = first;
 	return status;
 }
 
@@ -69,6 +82,7 @@ static int emit_measure(void *ctx)
 {
 	struct job_reader *r = ctx;
 	void *array = r->job->measures;
+	render_resolve(&r->measure.image);
 	int status = job_append(r, &array, &r->job->measure_count, &r->measure_room, &r->measure, sizeof r->measure);
 	r->job->measures = array;
 	return status;
@@ -104,11 +118,13 @@ static int read_structure(struct job_reader *r, const struct yaml_node *entry)
 
 static int read_measure(struct job_reader *r, const struct yaml_node *entry)
 {
-	if (entry->kind != YAML_MAP)
-		return values_fault(&r->values, entry->line, "a measure is {rays: invariant, count: N, ...}");
-	r->measure = (struct measure_spec){ 0 };
-	key_defaults(measure_keys, &r->measure);
-	return values_sweep(&r->values, "a measure", entry->first, measure_keys, NULL, &r->measure, emit_measure, r);
+	const struct yaml_node *image = entry->kind == YAML_MAP ? yaml_find(entry, "render") : NULL;
+	if (entry->kind != YAML_MAP || (image && (image->kind != YAML_MAP || entry->first->next)))
+		return values_fault(&r->values, entry->line, "a measure is {rays: invariant, count: N, ...} or {render: {width: N, ...}}");
+	r->measure = (struct measure_spec){ .render = image };
+	key_defaults(measure_keys(&r->measure), &r->measure);
+	return values_sweep(&r->values, image ? "render" : "a measure", (image ? image : entry)->first, measure_keys(&r->measure), NULL,
+	                    &r->measure, emit_measure, r);
 }
 
 static void read_each(struct job_reader *r, const struct yaml_node *root, const char *key,
@@ -116,11 +132,44 @@ static void read_each(struct job_reader *r, const struct yaml_node *root, const 
 {
 	const struct yaml_node *list = yaml_find(root, key);
 	if (!list || list->kind != YAML_LIST || !list->first) {
-		values_fault(&r->values, list ? list->line : 1, "'%s' must be a list with something in it", key);
+		values_fault(&r->values, list ? list->line : root->line ? root->line : 1, "'%s' must be a list with something in it", key);
 		return;
 	}
 	for (const struct yaml_node *entry = list->first; entry; entry = entry->next)
 		read(r, entry);
+}
+
+/* The scenes, structures and measures of a map: of the job itself, or of one of its experiments. */
+static int read_experiment(struct job_reader *r, const struct yaml_node *map)
+{
+	struct job *job = r->job;
+	r->experiment = (struct experiment){ .scene_first = job->scene_count, .structure_first = job->structure_count,
+		                             .measure_first = job->measure_count };
+	if (map->kind != YAML_MAP)
+		return values_fault(&r->values, map->line, "an experiment is a map: scenes, structures, measure");
+	read_each(r, map, "scenes", job_read_scene);
+	read_each(r, map, "structures", read_structure);
+	read_each(r, map, "measure", read_measure);
+	r->experiment.scene_count = job->scene_count - r->experiment.scene_first;
+	r->experiment.structure_count = job->structure_count - r->experiment.structure_first;
+	r->experiment.measure_count = job->measure_count - r->experiment.measure_first;
+	void *array = job->experiments;
+	int status = job_append(r, &array, &job->experiment_count, &r->experiment_room, &r->experiment, sizeof r->experiment);
+	job->experiments = array;
+	return status;
+}
+
+static int read_listed_experiment(struct job_reader *r, const struct yaml_node *map)
+{
+	static const char *const known[] = { "scenes", "structures", "measure", NULL };
+	for (const struct yaml_node *e = map->kind == YAML_MAP ? map->first : NULL; e; e = e->next) {
+		int i = 0;
+		while (known[i] && strcmp(known[i], e->key) != 0)
+			i++;
+		if (!known[i])
+			values_fault(&r->values, e->line, "an experiment has no '%s'; known are: scenes, structures, measure", e->key);
+	}
+	return read_experiment(r, map);
 }
 
 /* What belongs into names of folders: [A-Za-z0-9._-], not starting with a dot. */
@@ -138,7 +187,7 @@ static int keep_nothing(void *ctx)
 
 static void read_head(struct job_reader *r, const struct yaml_node *root)
 {
-	static const char *const known[] = { "name", "seed", "vars", "scenes", "structures", "measure", "output", NULL };
+	static const char *const known[] = { "name", "seed", "vars", "scenes", "structures", "measure", "experiments", "output", NULL };
 	struct head_spec head;
 	struct output_spec output;
 	key_defaults(head_keys, &head);
@@ -148,8 +197,10 @@ static void read_head(struct job_reader *r, const struct yaml_node *root)
 		while (known[i] && strcmp(known[i], e->key) != 0)
 			i++;
 		if (!known[i])
-			values_fault(&r->values, e->line, "a job has no '%s'; known are: name, seed, vars, scenes, structures, measure, output",
+			values_fault(&r->values, e->line, "a job has no '%s'; known are: name, seed, vars, scenes, structures, measure, experiments, output",
 			             e->key);
+		else if (i >= 3 && i <= 5 && yaml_find(root, "experiments"))
+			values_fault(&r->values, e->line, "'%s' belongs into the experiments where a job has some", e->key);
 		else if (i < 2)
 			values_set(&r->values, &head_keys[i], e, &head);
 	}
@@ -163,6 +214,7 @@ static void read_head(struct job_reader *r, const struct yaml_node *root)
 	r->job->name = head.name;
 	r->job->seed = head.seed;
 	r->job->save_scenes = output.scenes;
+	r->job->save_images = output.images;
 }
 
 /* Replace variables by what the command line sets. */
@@ -225,12 +277,23 @@ static void read_root(struct job_reader *r, struct yaml_node *root)
 	if (r->values.faults)
 		return;
 	read_head(r, root);
-	read_each(r, root, "scenes", job_read_scene);
-	read_each(r, root, "structures", read_structure);
-	read_each(r, root, "measure", read_measure);
-	double rows = (double)r->job->scene_count * (double)r->job->structure_count * (double)r->job->measure_count;
+	if (yaml_find(root, "experiments"))
+		read_each(r, root, "experiments", read_listed_experiment);
+	else
+		read_experiment(r, root);
+	size_t rows = job_rows(r->job);
 	if (rows > JOB_ROWS_MOST && !r->options->many)
-		values_fault(&r->values, 0, "%.0f rows, more than %d; --many if they are meant", rows, JOB_ROWS_MOST);
+		values_fault(&r->values, 0, "%zu rows, more than %d; --many if they are meant", rows, JOB_ROWS_MOST);
+}
+
+size_t job_rows(const struct job *job)
+{
+	size_t rows = 0;
+	for (size_t i = 0; i < job->experiment_count; i++) {
+		const struct experiment *x = &job->experiments[i];
+		rows += x->scene_count * x->structure_count * x->measure_count;
+	}
+	return rows;
 }
 
 int job_read(struct job *job, const char *path, const struct job_options *o, struct err *e)

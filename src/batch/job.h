@@ -5,12 +5,13 @@
 #include "accel/accel.h"
 #include "base/arena.h"
 #include "base/err.h"
+#include "batch/measure.h"
 #include "scene/primitives.h"
 #include "spd/spd.h"
 
 /* One scene: generated (family) or read (path). Texts live in the job's arena. */
 struct scene_spec {
-	const char *name;                 /* unique in the job; names its file in scenes/ */
+	const char *name;                 /* of one scene only in the job; names its file in scenes/ */
 	const struct spd_family *family;  /* NULL: a file */
 	const char *path;                 /* NULL: generated */
 	struct spd_options spd;           /* also the resolution of curves tessellated here */
@@ -23,26 +24,21 @@ struct structure_spec {
 	_Alignas(16) unsigned char options[ACCEL_OPT_MOST];
 };
 
-enum { RAYS_INVARIANT, RAYS_LINES };
-enum { SIDES_TWO, SIDES_ONE };
-
-struct measure_spec {
-	int rays, sides;
-	int64_t count;
-	double alpha, beta;
+/* Scenes, structures and measures to combine: scenes[scene_first .. scene_first + scene_count) of the job, and so on. */
+struct experiment {
+	size_t scene_first, scene_count, structure_first, structure_count, measure_first, measure_count;
 };
-
-extern const struct key measure_keys[];
 
 struct job {
 	struct arena mem;
 	const char *name, *text; /* text: of the file, for the manifest */
 	int64_t seed;
-	bool save_scenes;
+	bool save_scenes, save_images;
 	struct scene_spec *scenes;
 	struct structure_spec *structures;
 	struct measure_spec *measures;
-	size_t scene_count, structure_count, measure_count;
+	struct experiment *experiments;
+	size_t scene_count, structure_count, measure_count, experiment_count;
 };
 
 /* What the command line adds: settings "NAME=VALUE[,VALUE...]" override variables; many: more than 100,000 rows are meant;
@@ -59,5 +55,8 @@ enum { JOB_ROWS_MOST = 100000 };
 int job_read(struct job *job, const char *path, const struct job_options *o, struct err *e);
 
 void job_free(struct job *job);
+
+/* Combinations in all experiments. */
+size_t job_rows(const struct job *job);
 
 #endif

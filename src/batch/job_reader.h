@@ -16,7 +16,8 @@ struct job_reader {
 	struct scene_spec scene;
 	struct structure_spec structure;
 	struct measure_spec measure;
-	size_t scene_room, structure_room, measure_room;
+	size_t scene_room, structure_room, measure_room, experiment_room;
+	struct experiment experiment; /* at hand */
 };
 
 /* Append a copy of 'item' to an array of the job. 0, or -1 after a fault: too many, memory. */

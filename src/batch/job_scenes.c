@@ -57,6 +57,12 @@ static const char *name_scene(struct job_reader *r)
 	return arena_text(&r->job->mem, name, strlen(name));
 }
 
+/* Whether two scenes of one name are one: a generated scene is named after all its options. */
+static bool is_same(const struct scene_spec *s, const struct scene_spec *t)
+{
+	return s->family == t->family && (s->family || strcmp(s->path, t->path) == 0);
+}
+
 static int emit_scene(void *ctx)
 {
 	struct job_reader *r = ctx;
@@ -65,7 +71,8 @@ static int emit_scene(void *ctx)
 	if (!s->name)
 		return err_memory(r->values.err, "job");
 	for (size_t i = 0; i < r->job->scene_count; i++)
-		if (strcmp(r->job->scenes[i].name, s->name) == 0)
+		if (strcmp(r->job->scenes[i].name, s->name) == 0 &&
+		    (i >= r->experiment.scene_first || !is_same(&r->job->scenes[i], s)))
 			return values_fault(&r->values, r->line, "two scenes are called '%s'", s->name);
 	void *array = r->job->scenes;
 	int status = job_append(r, &array, &r->job->scene_count, &r->scene_room, s, sizeof *s);

@@ -29,7 +29,7 @@ static int write_generated(struct text *text, const struct scene_spec *spec, str
 	return status;
 }
 
-int load_scene(struct primitives *p, struct text *text, const struct scene_spec *spec, struct err *e)
+int load_scene(struct primitives *p, struct scene *setting, struct text *text, const struct scene_spec *spec, struct err *e)
 {
 	struct scene s = { 0 };
 	struct nff_skipped skipped;
@@ -46,6 +46,10 @@ int load_scene(struct primitives *p, struct text *text, const struct scene_spec 
 	if (status == 0)
 		status = primitives_make(p, &s, (enum curves)spec->curves, (int)spec->spd.resolution,
 		                         spec->path ? spec->path : spec->name, e);
+	if (status == 0) {
+		scene_copy_setting(setting, &s);
+		status = scene_complete(setting, spec->name, e);
+	}
 	scene_free(&s);
 	return status;
 }

@@ -8,13 +8,20 @@
 #include <string.h>
 
 /* Part of every key: to be raised when the same inputs give other rows. */
-enum { FORMAT = 2 };
+enum { FORMAT = 3 };
 
 #define AT(field) offsetof(struct row, field)
 #define TEXT(name, text) { #name, COLUMN_TEXT, AT(name), text }
 #define COUNT(name, text) { #name, COLUMN_COUNT, AT(name), text }
 #define REAL(name, field, text) { name, COLUMN_REAL, AT(field), text }
 #define OPTION(name, text) { #name, COLUMN_OPTION, 0, text }
+#define MEASURE(name, text) { #name, COLUMN_MEASURE, 0, text }
+#define CLASS(name, class) \
+	{ name "_rays", COLUMN_COUNT, AT(class_counts[class][0]), "image: " name " rays, those that visit no cell included" }, \
+	{ name "_hits", COLUMN_COUNT, AT(class_counts[class][1]), "image: " name " rays that end on a primitive" }, \
+	{ name "_leaves", COLUMN_COUNT, AT(class_counts[class][2]), "image: leaves visited by " name " rays, in all" }, \
+	{ name "_tests", COLUMN_COUNT, AT(class_counts[class][3]), "image: ray-primitive tests of " name " rays, in all" }, \
+	{ name "_inner", COLUMN_COUNT, AT(class_counts[class][4]), "image: inner nodes visited by " name " rays, in all" }
 
 const struct column row_columns[] = {
 	{ "key", COLUMN_KEY, AT(key), "hash of what determines the row: scene content, options, workload, seed" },
@@ -30,8 +37,21 @@ const struct column row_columns[] = {
 	OPTION(root, "the region: bounding cube or tight bounding box"),
 	OPTION(max_depth, "octree: cells of this depth are not split"),
 	OPTION(overlap, "octree: exact or bounding-box lists"),
-	TEXT(workload, "invariant, invariant-one-sided or lines"),
+	OPTION(criterion, "octree: what cells are split for"),
+	OPTION(cutoff, "octree, features: cells of at most this share of the root's side are not split"),
+	OPTION(root_level, "octree, random: level of the root"),
+	OPTION(run, "octree, random: which of the trees"),
+	TEXT(workload, "invariant, invariant-one-sided, invariant-ext, lines or render"),
+	MEASURE(width, "image: pixels"),
+	MEASURE(height, "image: pixels"),
+	MEASURE(sampling, "image: primary rays through pixel centers or corners"),
+	MEASURE(shadows, "image: shadow rays to all lights, or to those that the surface faces"),
+	MEASURE(ray_depth, "image: of the tree of rays; a primary ray has 1"),
+	MEASURE(weight, "image: rays that could add less than this share to a pixel are not shot"),
+	MEASURE(pilot_width, "image: pixels of the pilot"),
+	MEASURE(pilot_height, "image: pixels of the pilot"),
 	COUNT(rays, "number of rays shot"),
+	COUNT(missed, "image: rays that visit no cell; they are in no mean"),
 	COUNT(seed, "of the job; every random number follows from it and the scene"),
 	REAL("alpha", alpha, "cost of a visited leaf"),
 	REAL("beta", beta, "cost of a ray-primitive test"),
@@ -49,6 +69,14 @@ const struct column row_columns[] = {
 	REAL("predicted", predicted.predicted, "cost a ray by eq. (3) of Aronov et al. 2002 as printed"),
 	REAL("predicted_two_sided", predicted.predicted_two_sided, "the same with both sides of the surface in the denominator"),
 	REAL("predicted_exact", predicted.predicted_exact, "expected cost a ray, exact for the workload"),
+	REAL("predicted_one", predicted.predicted_one, "the exact form with one side of every surface: rays that start on the front sides only, "
+	     "if none ran inside a solid"),
+	REAL("replay", replay.mean, "image: cost a ray of the pilot's rays in this structure"),
+	REAL("replay_low", replay.low, "lower end of its 95 % interval, by bootstrap over the pilot's pixels"),
+	REAL("replay_high", replay.high, "upper end of it"),
+	REAL("calibrated", calibrated.mean, "image: predicted_exact times the ratio the pilot has in one reference octree"),
+	REAL("calibrated_low", calibrated.low, "lower end of its 95 % interval"),
+	REAL("calibrated_high", calibrated.high, "upper end of it"),
 	REAL("predicted_leaves", predicted.leaves, "expected leaves visited a ray"),
 	REAL("predicted_tests", predicted.tests, "expected ray-primitive tests a ray"),
 	REAL("predicted_inner_step", predicted.inner_step, "expected inner nodes a ray while stepping from leaf to leaf"),
@@ -71,6 +99,8 @@ const struct column row_columns[] = {
 	REAL("actual_hits_se", actual.hits.se, "its standard error"),
 	REAL("ratio", ratio, "predicted / actual"),
 	REAL("ratio_exact", ratio_exact, "predicted_exact / actual"),
+	REAL("ratio_replay", ratio_replay, "replay / actual"),
+	REAL("ratio_calibrated", ratio_calibrated, "calibrated / actual"),
 	REAL("z_exact", z_exact, "(actual - predicted_exact) / actual_se"),
 	REAL("z_leaves", z_leaves, "the same for leaves"),
 	REAL("z_tests", z_tests, "the same for tests"),
@@ -78,6 +108,10 @@ const struct column row_columns[] = {
 	REAL("z_inner_start", z_inner_start, "the same for inner_start"),
 	REAL("overhead_predicted", overhead_predicted, "vertical motion: (leaves + inner_step) / leaves, predicted"),
 	REAL("overhead_actual", overhead_actual, "vertical motion: (leaves + inner_step) / leaves, measured"),
+	CLASS("primary", RAY_PRIMARY),
+	CLASS("shadow", RAY_SHADOW),
+	CLASS("reflected", RAY_REFLECTED),
+	CLASS("refracted", RAY_REFRACTED),
 	{ 0 }
 };
 
@@ -101,41 +135,55 @@ void structure_print(const struct structure_spec *s, char *out, size_t size)
 	size_t n = (size_t)snprintf(out, size, "%s", s->ops->name);
 	for (const struct key *k = s->ops->keys; k->name && n < size; k++) {
 		char value[64];
+		if (!accel_applies(s->ops, s->options, k->name))
+			continue;
 		key_print(k, s->options, value, sizeof value);
 		n += (size_t)snprintf(out + n, size - n, " %s=%s", k->name, value);
 	}
 }
 
+uint64_t hash_bytes(const char *bytes, size_t count)
+{
+	uint64_t hash = rng_mix(count);
+	for (size_t i = 0; i < count; i++)
+		hash = rng_mix(hash ^ (unsigned char)bytes[i]);
+	return hash;
+}
+
 static uint64_t make_key(const struct job *job, const struct scene_spec *scene, const struct structure_spec *structure,
-                         const struct measure_spec *measure, const struct primitives *p)
+                         const struct measure_spec *measure, const struct primitives *p, uint64_t text_hash)
 {
 	char text[512];
 	uint64_t hash = rng_mix(FORMAT);
 	structure_print(structure, text, sizeof text);
 	hash = hash_text(hash, text);
-	for (const struct key *k = measure_keys; k->name; k++) {
-		key_print(k, measure, text, sizeof text);
-		hash = hash_text(hash, text);
-	}
+	measure_print(measure, text, sizeof text);
+	hash = hash_text(hash, text);
+	if (measure->render)
+		hash = rng_mix(hash ^ text_hash);
 	hash = rng_mix(hash ^ (uint64_t)job->seed);
 	hash = hash_text(hash, scene->name);
 	return p ? rng_mix(hash ^ p->hash) : hash;
 }
 
 void row_identify(struct row *r, const struct job *job, const struct scene_spec *scene, const struct structure_spec *structure,
-                  const struct measure_spec *measure, const struct primitives *p)
+                  const struct measure_spec *measure, const struct primitives *p, uint64_t text_hash)
 {
 	*r = (struct row){ .job = job->name, .scene = scene->name, .structure = structure->ops->name, .spec = structure,
-		           .rays = (uint64_t)measure->count, .seed = (uint64_t)job->seed, .alpha = measure->alpha,
+		           .measure = measure, .rays = measure->render ? ROW_NONE : (uint64_t)measure->count, .missed = ROW_NONE,
+		           .seed = (uint64_t)job->seed, .alpha = measure->alpha,
 		           .beta = measure->beta };
-	r->key = make_key(job, scene, structure, measure, p);
+	r->key = make_key(job, scene, structure, measure, p, text_hash);
 	r->family = scene->family ? scene->family->name : NULL;
 	r->size = ROW_NONE;
 	if (scene->family && scene->family->default_size)
 		r->size = (uint64_t)(scene->spd.size == SPD_DEFAULT_SIZE ? scene->family->default_size : scene->spd.size);
-	r->workload = measure->rays == RAYS_LINES ? "lines" : measure->sides == SIDES_ONE ? "invariant-one-sided" : "invariant";
+	r->workload = measure_workload(measure);
 	r->triangles = p ? p->triangles : ROW_NONE;
 	r->spheres = p ? p->spheres : ROW_NONE;
+	for (int c = 0; c < RAY_CLASSES; c++)
+		for (int i = 0; i < 5; i++)
+			r->class_counts[c][i] = ROW_NONE;
 	r->nodes = r->leaves = r->empty_leaves = r->references = r->depth = ROW_NONE;
 	for (const struct column *c = row_columns; c->name; c++)
 		if (c->type == COLUMN_REAL && strcmp(c->name, "alpha") != 0 && strcmp(c->name, "beta") != 0)
@@ -152,9 +200,36 @@ static double deviation(struct mean actual, double predicted)
 	return fabs(far) <= 1e-12 * fabs(predicted) ? 0 : copysign(1e9, far);
 }
 
-void row_complete(struct row *r, const struct accel *a, const struct prediction *p, const struct actual *actual,
-                  const struct measure_spec *measure)
+/* Deviations of the counts from what they are expected to be. */
+static void compare_exact(struct row *r)
 {
+	const struct prediction *p = &r->predicted;
+	const struct actual *a = &r->actual;
+	r->z_exact = deviation(a->cost, p->predicted_exact);
+	r->z_leaves = deviation(a->leaves, p->leaves);
+	r->z_tests = deviation(a->tests, p->tests);
+	r->z_inner_step = deviation(a->inner_step, p->inner_step);
+	r->z_inner_start = deviation(a->inner_start, p->inner_start);
+}
+
+static void complete_image(struct row *r)
+{
+	r->rays = r->missed = 0;
+	for (int c = 0; c < RAY_CLASSES; c++) {
+		const struct class_tally *t = &r->classes[c];
+		const uint64_t counts[5] = { t->rays, t->sum.hits, t->sum.leaves, t->sum.tests, t->sum.inner_step + t->sum.inner_start };
+		memcpy(r->class_counts[c], counts, sizeof counts);
+		r->rays += t->rays;
+		r->missed += t->missed;
+	}
+	r->ratio_replay = r->replay.mean / r->actual.cost.mean;
+	r->ratio_calibrated = r->calibrated.mean / r->actual.cost.mean;
+}
+
+void row_complete(struct row *r, const struct accel *a, const struct measure_spec *measure)
+{
+	const struct prediction *p = &r->predicted;
+	const struct actual *actual = &r->actual;
 	r->status = "ok";
 	r->nodes = a->nodes;
 	r->leaves = a->leaves;
@@ -163,26 +238,16 @@ void row_complete(struct row *r, const struct accel *a, const struct prediction 
 	r->depth = (uint64_t)a->depth;
 	r->root_area = box_area(&a->root);
 	r->object_area = a->primitives->area;
-	r->predicted = *p;
-	r->actual = *actual;
 	r->actual_low = actual->cost.mean - 1.96 * actual->cost.se;
 	r->actual_high = actual->cost.mean + 1.96 * actual->cost.se;
 	r->ratio = p->predicted / actual->cost.mean;
-	r->overhead_actual = (actual->leaves.mean + actual->inner_step.mean) / actual->leaves.mean;
-	if (measure->rays == RAYS_INVARIANT && measure->sides == SIDES_ONE) {
-		/* Only E as printed says anything about one-sided rays. */
-		struct prediction *q = &r->predicted;
-		q->predicted_two_sided = q->predicted_exact = q->leaves = q->tests = q->inner_step = q->inner_start =
-			q->inner_top_down = q->inner_restart = NAN;
-		return;
-	}
 	r->ratio_exact = p->predicted_exact / actual->cost.mean;
-	r->z_exact = deviation(actual->cost, p->predicted_exact);
-	r->z_leaves = deviation(actual->leaves, p->leaves);
-	r->z_tests = deviation(actual->tests, p->tests);
-	r->z_inner_step = deviation(actual->inner_step, p->inner_step);
-	r->z_inner_start = deviation(actual->inner_start, p->inner_start);
 	r->overhead_predicted = (p->leaves + p->inner_step) / p->leaves;
+	r->overhead_actual = (actual->leaves.mean + actual->inner_step.mean) / actual->leaves.mean;
+	if (measure->render)
+		complete_image(r);
+	else if (!isnan(p->predicted_exact))
+		compare_exact(r);
 }
 
 static void print_field(const struct row *r, const struct column *c, char *out, size_t size)
@@ -206,9 +271,13 @@ static void print_field(const struct row *r, const struct column *c, char *out, 
 		snprintf(out, size, "%016" PRIx64, *(const uint64_t *)at);
 		break;
 	case COLUMN_OPTION:
-		option = key_find(r->spec->ops->keys, c->name);
+		if (accel_applies(r->spec->ops, r->spec->options, c->name))
+			key_print(key_find(r->spec->ops->keys, c->name), r->spec->options, out, size);
+		break;
+	case COLUMN_MEASURE:
+		option = r->measure->render ? key_find(measure_image_keys, c->name) : NULL;
 		if (option)
-			key_print(option, r->spec->options, out, size);
+			key_print(option, r->measure, out, size);
 		break;
 	}
 }

@@ -5,30 +5,35 @@
 #include "batch/job.h"
 #include "cost/cost.h"
 #include "io/text.h"
-#include "trace/shoot.h"
+#include "trace/replay.h"
 
 /* Everything a row says. Texts are borrowed; NULL, ROW_NONE and NAN mean "not applicable" and print as nothing. */
 #define ROW_NONE UINT64_MAX
 
 struct row {
 	const char *job, *scene, *family, *structure, *workload, *status, *message;
-	uint64_t key, size, triangles, spheres, rays, seed;
+	uint64_t key, size, triangles, spheres, rays, missed, seed;
 	uint64_t nodes, leaves, empty_leaves, references, depth;
 	double alpha, beta, root_area, object_area;
 	struct prediction predicted;
+	struct estimate replay, calibrated;
 	struct actual actual;
+	struct class_tally classes[RAY_CLASSES];
+	uint64_t class_counts[RAY_CLASSES][5]; /* rays, hits, leaves, tests, inner */
+	double ratio_replay, ratio_calibrated;
 	double actual_low, actual_high;
 	double ratio, ratio_exact, z_exact, z_leaves, z_tests, z_inner_step, z_inner_start;
 	double overhead_predicted, overhead_actual;
-	const struct structure_spec *spec; /* for the columns that are options */
+	const struct structure_spec *spec;    /* for the columns that are options */
+	const struct measure_spec *measure;
 };
 
-enum column_type { COLUMN_TEXT, COLUMN_COUNT, COLUMN_REAL, COLUMN_KEY, COLUMN_OPTION };
+enum column_type { COLUMN_TEXT, COLUMN_COUNT, COLUMN_REAL, COLUMN_KEY, COLUMN_OPTION, COLUMN_MEASURE };
 
 struct column {
 	const char *name;
 	enum column_type type;
-	size_t offset; /* in struct row; COLUMN_OPTION: unused */
+	size_t offset; /* in struct row; options of structure and measure: unused */
 	const char *text;
 };
 
@@ -39,13 +44,14 @@ extern const struct column row_columns[];
 int row_column(const char *name);
 
 /* Identify the combination: everything that does not have to be computed. p may be NULL: the scene could not be had; then the key
- * follows from the scene's name. */
+ * follows from the scene's name. text_hash: of the scene's text, of which images depend more than rays do. */
 void row_identify(struct row *r, const struct job *job, const struct scene_spec *scene, const struct structure_spec *structure,
-                  const struct measure_spec *measure, const struct primitives *p);
+                  const struct measure_spec *measure, const struct primitives *p, uint64_t text_hash);
 
-/* Fill in what was built, predicted and measured, and what follows from it. */
-void row_complete(struct row *r, const struct accel *a, const struct prediction *p, const struct actual *actual,
-                  const struct measure_spec *measure);
+/* Predictions and measured counts are in place: fill in what was built, and what follows from them. */
+void row_complete(struct row *r, const struct accel *a, const struct measure_spec *measure);
+
+uint64_t hash_bytes(const char *bytes, size_t count);
 
 /* The row, or the head, as a line of CSV with its newline. */
 void row_print(const struct row *r, struct text *line);

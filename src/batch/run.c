@@ -2,16 +2,19 @@
 
 #include "base/progress.h"
 #include "base/rng.h"
+#include "batch/imaging.h"
 #include "batch/load.h"
 #include "batch/manifest.h"
 #include "batch/record.h"
 #include "batch/row.h"
 #include "batch/summary.h"
+#include "io/png.h"
 
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -25,10 +28,14 @@ struct run {
 	struct err *err;
 };
 
-/* A scene at hand, and the structure built over it last. */
+/* A scene at hand. */
 struct bench {
+	const struct experiment *experiment;
 	const struct scene_spec *scene;
 	struct primitives primitives;
+	struct scene setting;
+	struct imaging *imagings; /* for every measure of the experiment */
+	uint64_t text_hash;       /* of its NFF text: view, lights and materials too */
 	bool loaded;
 	struct err fault; /* why not */
 };
@@ -40,6 +47,11 @@ struct built {
 	bool tried, ok;
 	double seconds;
 	struct err fault;
+	/* The last prediction, for the next measure may need the same. */
+	bool predicted;
+	enum law law;
+	double alpha, beta;
+	struct prediction prediction;
 };
 
 static int stopped(const struct run *r)
@@ -79,44 +91,108 @@ static int write_failure(struct run *r, struct row *row, const struct err *why)
 	return write_row(r, row, true);
 }
 
-static enum workload workload_of(const struct measure_spec *m)
+static enum law law_of(const struct measure_spec *m)
 {
-	if (m->rays == RAYS_LINES)
-		return WORKLOAD_LINES;
-	return m->sides == SIDES_ONE ? WORKLOAD_ONE_SIDED : WORKLOAD_INVARIANT;
+	static const enum law laws[] = { LAW_RAYS, LAW_ONE_SIDED, LAW_EXT };
+	if (m->render)
+		return LAW_RAYS;
+	return m->rays == RAYS_LINES ? LAW_LINES : laws[m->sides];
 }
 
-/* Predict and shoot one combination whose structure stands. */
-static int measure_row(struct run *r, struct row *row, const struct built *built, const struct measure_spec *m)
+static int predict(struct row *row, struct built *built, const struct measure_spec *m, struct err *e)
 {
-	struct prediction predicted;
-	struct actual actual;
-	struct err fault = { 0 };
+	enum law law = law_of(m);
+	if (!built->predicted || built->law != law || built->alpha != m->alpha || built->beta != m->beta) {
+		built->law = law;
+		built->alpha = m->alpha;
+		built->beta = m->beta;
+		built->predicted = cost_predict(&built->prediction, &built->accel, law, m->alpha, m->beta, e) == 0;
+	}
+	row->predicted = built->prediction;
+	return built->predicted ? 0 : -1;
+}
+
+/* Keep the image as images/NAME.png; the measure's number is added where an experiment has several. */
+static int save_image(struct run *r, const struct bench *bench, size_t measure, const struct rendering *image)
+{
+	char path[4096], number[24] = "";
+	const struct measure_spec *m = &r->job->measures[bench->experiment->measure_first + measure];
+	size_t renders = 0;
+	for (size_t i = 0; i < bench->experiment->measure_count; i++)
+		renders += r->job->measures[bench->experiment->measure_first + i].render;
+	snprintf(path, sizeof path, "%s/images", r->record.folder);
+	if (mkdir(path, 0777) != 0 && errno != EEXIST)
+		return err_at(r->err, STATUS_ENVIRONMENT, path, 0, "%s", strerror(errno));
+	if (renders > 1)
+		snprintf(number, sizeof number, "-%zu", measure + 1);
+	snprintf(path, sizeof path, "%s/images/%s%s.png", r->record.folder, bench->scene->name, number);
+	return png_write_rgb(path, image->pixels, (int)m->image.width, (int)m->image.height, r->err);
+}
+
+/* Render, after the predictors have had their say. *seconds: of the rendering. Faults of the row go to *fault, others to r->err. */
+static int measure_image(struct run *r, struct row *row, struct bench *bench, const struct built *built, size_t measure,
+                         double *seconds, struct err *fault)
+{
+	const struct measure_spec *m = &r->job->measures[bench->experiment->measure_first + measure];
+	struct imaging *imaging = &bench->imagings[measure];
+	const struct imaging_run prepare = { m, &bench->setting, r->options->threads, r->options->stop };
+	const struct render_run run = { .alpha = m->alpha, .beta = m->beta, .threads = r->options->threads, .stop = r->options->stop };
+	struct rendering image;
+	if (imaging_predict(imaging, &prepare, &built->accel, built->structure, row->predicted.predicted_exact, &row->replay,
+	                    &row->calibrated, fault) != 0)
+		return -1;
+	double start = clock_seconds();
+	int status = render_scene(&image, &bench->setting, &built->accel, &m->image, &run, fault);
+	*seconds = clock_seconds() - start;
+	if (status == 0 && r->job->save_images && !imaging->saved)
+		imaging->saved = save_image(r, bench, measure, &image) == 0;
+	row->actual = image.actual;
+	memcpy(row->classes, image.classes, sizeof row->classes);
+	rendering_free(&image);
+	return status;
+}
+
+static int measure_rays(struct run *r, struct row *row, const struct built *built, const struct measure_spec *m, double *seconds,
+                        struct err *fault)
+{
 	/* Every scene has its own random numbers, so that deviations in one say nothing about another; its variants share them, so
 	 * that they differ by structure only. */
 	uint64_t seed = rng_mix((uint64_t)r->job->seed ^ built->accel.primitives->hash);
-	double start = clock_seconds(), middle;
-	enum law law = m->rays == RAYS_LINES ? LAW_LINES : LAW_RAYS;
-	int status = cost_predict(&predicted, &built->accel, law, m->alpha, m->beta, &fault);
-	middle = clock_seconds();
-	if (status == 0)
-		status = shoot_rays(&actual, &built->accel, workload_of(m), (uint64_t)m->count, seed, m->alpha, m->beta,
-		                    r->options->threads, r->options->stop, &fault);
-	if (stopped(r) != 0)
+	enum workload workload = m->rays == RAYS_LINES ? WORKLOAD_LINES : m->sides == SIDES_TWO ? WORKLOAD_INVARIANT : WORKLOAD_ONE_SIDED;
+	double start = clock_seconds();
+	int status = shoot_rays(&row->actual, &built->accel, workload, (uint64_t)m->count, seed, m->alpha, m->beta,
+	                        r->options->threads, r->options->stop, fault);
+	*seconds = clock_seconds() - start;
+	return status;
+}
+
+/* Predict and measure one combination whose structure stands. */
+static int measure_row(struct run *r, struct row *row, struct bench *bench, struct built *built, size_t measure)
+{
+	const struct measure_spec *m = &r->job->measures[bench->experiment->measure_first + measure];
+	struct err fault = { 0 };
+	double start = clock_seconds(), seconds = 0;
+	int status = predict(row, built, m, &fault);
+	if (status == 0 && m->render)
+		status = measure_image(r, row, bench, built, measure, &seconds, &fault);
+	else if (status == 0)
+		status = measure_rays(r, row, built, m, &seconds, &fault);
+	if (stopped(r) != 0 || r->err->code)
 		return -1;
 	if (status != 0)
 		return write_failure(r, row, &fault);
-	row_complete(row, &built->accel, &predicted, &actual, m);
+	row_complete(row, &built->accel, m);
 	if (write_row(r, row, false) != 0)
 		return -1;
-	return write_times(r, row, built, middle - start, clock_seconds() - middle);
+	return write_times(r, row, built, clock_seconds() - start - seconds, seconds);
 }
 
-static int do_row(struct run *r, const struct bench *bench, struct built *built, const struct measure_spec *m)
+static int do_row(struct run *r, struct bench *bench, struct built *built, size_t measure)
 {
 	struct row row;
 	char key[20];
-	row_identify(&row, r->job, bench->scene, built->structure, m, bench->loaded ? &bench->primitives : NULL);
+	row_identify(&row, r->job, bench->scene, built->structure, &r->job->measures[bench->experiment->measure_first + measure],
+	             bench->loaded ? &bench->primitives : NULL, bench->text_hash);
 	snprintf(key, sizeof key, "%016" PRIx64, row.key);
 	const char *old = record_find(&r->record, key);
 	if (old)
@@ -132,18 +208,16 @@ static int do_row(struct run *r, const struct bench *bench, struct built *built,
 	}
 	if (!built->ok)
 		return write_failure(r, &row, &built->fault);
-	return measure_row(r, &row, built, m);
+	return measure_row(r, &row, bench, built, measure);
 }
 
-static int do_structure(struct run *r, const struct bench *bench, const struct structure_spec *structure)
+static int do_structure(struct run *r, struct bench *bench, const struct structure_spec *structure)
 {
-	const struct job *job = r->job;
 	struct built built = { .structure = structure };
 	int status = 0;
-	for (size_t i = 0; status == 0 && i < job->measure_count; i++) {
-		progress_show(&r->progress, r->record.kept + r->record.added,
-		              job->scene_count * job->structure_count * job->measure_count, bench->scene->name);
-		status = stopped(r) != 0 ? -1 : do_row(r, bench, &built, &job->measures[i]);
+	for (size_t i = 0; status == 0 && i < bench->experiment->measure_count; i++) {
+		progress_show(&r->progress, r->record.kept + r->record.added, job_rows(r->job), bench->scene->name);
+		status = stopped(r) != 0 ? -1 : do_row(r, bench, &built, i);
 	}
 	if (built.ok)
 		accel_free(&built.accel);
@@ -161,19 +235,34 @@ static int save_scene(struct run *r, const struct scene_spec *scene, const struc
 	return access(path, F_OK) == 0 && !r->options->fresh ? 0 : text_write_file(text, path, r->err);
 }
 
-static int do_scene(struct run *r, const struct scene_spec *scene)
+static int do_scene(struct run *r, const struct experiment *x, const struct scene_spec *scene)
 {
-	struct bench bench = { .scene = scene };
+	struct bench bench = { .experiment = x, .scene = scene };
 	struct text text = { 0 };
 	int status = 0;
-	bench.loaded = load_scene(&bench.primitives, &text, scene, &bench.fault) == 0;
+	bench.imagings = calloc(x->measure_count, sizeof *bench.imagings);
+	if (!bench.imagings)
+		return err_memory(r->err, "run");
+	bench.loaded = load_scene(&bench.primitives, &bench.setting, &text, scene, &bench.fault) == 0;
 	if (bench.loaded && r->job->save_scenes)
 		status = save_scene(r, scene, &text);
+	bench.text_hash = hash_bytes(text.bytes, text.size);
 	text_free(&text);
-	for (size_t i = 0; status == 0 && i < r->job->structure_count; i++)
-		status = do_structure(r, &bench, &r->job->structures[i]);
-	if (bench.loaded)
-		primitives_free(&bench.primitives);
+	for (size_t i = 0; status == 0 && i < x->structure_count; i++)
+		status = do_structure(r, &bench, &r->job->structures[x->structure_first + i]);
+	for (size_t i = 0; i < x->measure_count; i++)
+		imaging_free(&bench.imagings[i]);
+	free(bench.imagings);
+	scene_free(&bench.setting);
+	primitives_free(&bench.primitives);
+	return status;
+}
+
+static int do_experiment(struct run *r, const struct experiment *x)
+{
+	int status = 0;
+	for (size_t i = 0; status == 0 && i < x->scene_count; i++)
+		status = do_scene(r, x, &r->job->scenes[x->scene_first + i]);
 	return status;
 }
 
@@ -190,8 +279,8 @@ int run_job(const struct job *job, const struct run_options *o, struct run_resul
 	progress_open(&r.progress);
 	int status = record_open(&r.record, result->folder, o->fresh, e);
 	bool locked = status == 0;
-	for (size_t i = 0; status == 0 && i < job->scene_count; i++)
-		status = do_scene(&r, &job->scenes[i]);
+	for (size_t i = 0; status == 0 && i < job->experiment_count; i++)
+		status = do_experiment(&r, &job->experiments[i]);
 	if (status == 0)
 		status = record_finish(&r.record, e);
 	progress_close(&r.progress);

@@ -89,6 +89,15 @@ static struct digest digest_scene(const char *rows, const char *scene)
 	return d;
 }
 
+/* A scene that an earlier experiment had is in the table already. */
+static bool is_repeated(const struct job *job, size_t scene)
+{
+	for (size_t i = 0; i < scene; i++)
+		if (strcmp(job->scenes[i].name, job->scenes[scene].name) == 0)
+			return true;
+	return false;
+}
+
 void summary_print(struct text *out, const struct job *job, const char *rows, const char *folder)
 {
 	size_t all = 0, failed = 0;
@@ -99,6 +108,8 @@ void summary_print(struct text *out, const struct job *job, const char *rows, co
 	text_print(out, "%-*s %9s %5s  %9s  %-14s  %-14s  %-14s  %5s  %s\n", width, "scene", "triangles", "rows", "best cost",
 	           "ratio", "ratio_exact", "overhead", "|z|", "best variant");
 	for (size_t i = 0; i < job->scene_count; i++) {
+		if (is_repeated(job, i))
+			continue;
 		struct digest d = digest_scene(rows, job->scenes[i].name);
 		text_print(out, "%-*s %9s %5zu", width, job->scenes[i].name, d.triangles, d.rows);
 		if (d.failed < d.rows)

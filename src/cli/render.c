@@ -17,7 +17,7 @@ static const char help[] =
 	"  --preset spd            the procedure of the SPD scenes: rays through pixel corners, depth 5\n"
 	"  --width N --height N    pixels (512 x 512)\n"
 	"  --sampling corners      primary rays through pixel corners instead of centers\n"
-	"  --depth N               of the tree of rays; a primary ray has 1 (5)\n"
+	"  --ray_depth N           of the tree of rays; a primary ray has 1 (5)\n"
 	"  --shadows facing        shadow rays only to lights that the surface faces, not to all\n"
 	"  --weight X              rays that could add less than this share to a pixel are not shot (0)\n"
 	"  --structure NAME        octree or list; its options follow, e.g. --max_objects 5 --root box\n"

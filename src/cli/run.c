@@ -70,20 +70,18 @@ static int parse(struct arguments *a, int count, char **words, struct err *e)
 
 static void print_plan(struct text *out, const struct job *job)
 {
-	char structure[256];
-	for (size_t i = 0; i < job->scene_count; i++)
-		for (size_t k = 0; k < job->structure_count; k++)
-			for (size_t m = 0; m < job->measure_count; m++) {
-				structure_print(&job->structures[k], structure, sizeof structure);
-				text_print(out, "%s  %s ", job->scenes[i].name, structure);
-				for (const struct key *key = measure_keys; key->name; key++) {
-					char value[64];
-					key_print(key, &job->measures[m], value, sizeof value);
-					text_print(out, " %s=%s", key->name, value);
+	char structure[256], measure[512];
+	for (size_t n = 0; n < job->experiment_count; n++) {
+		const struct experiment *x = &job->experiments[n];
+		for (size_t i = 0; i < x->scene_count; i++)
+			for (size_t k = 0; k < x->structure_count; k++)
+				for (size_t m = 0; m < x->measure_count; m++) {
+					structure_print(&job->structures[x->structure_first + k], structure, sizeof structure);
+					measure_print(&job->measures[x->measure_first + m], measure, sizeof measure);
+					text_print(out, "%s  %s  %s\n", job->scenes[x->scene_first + i].name, structure, measure);
 				}
-				text_print(out, "\n");
-			}
-	text_print(out, "%zu rows\n", job->scene_count * job->structure_count * job->measure_count);
+	}
+	text_print(out, "%zu rows\n", job_rows(job));
 }
 
 static int run(struct cli *cli, int count, char **words, struct err *e)

@@ -7,9 +7,13 @@
  *   inner_start  depth times the measure of the starts in each leaf, over Z
  * Triangles lying in a face between two cells count for neither: the rays they stop there would have entered, and the rays they
  * send out take their place. Those that overlap there stop a ray once but send out one each. In a face of the root only the inner
- * side sends rays into the structure. */
+ * side sends rays into the structure.
+ *
+ * Where rays start on the front sides of closed solids only (LAW_EXT), A becomes the area of the cell's surface outside the solids,
+ * 2 a becomes a, and Z = A(root) + a. */
 #include "cost/cost.h"
 
+#include "cost/solid.h"
 #include "cost/surface.h"
 
 #include <stdlib.h>
@@ -18,6 +22,7 @@
 struct frame {
 	struct box bounds;
 	struct surface surface;
+	double outside[6]; /* of every face, LAW_EXT only */
 	bool leaf;
 };
 
@@ -26,9 +31,10 @@ struct sums {
 	struct err *err;
 	struct frame *open; /* cells from the root down to the last one seen */
 	int depth;          /* of that one; -1 before the root */
-	bool lines;
+	enum law law;
+	const struct solid *solid; /* LAW_EXT only */
 	double alpha, beta;
-	double weight, weight_exact;   /* sum of c A and of c (A + 2 a) */
+	double weight, weight_one, weight_exact; /* sum of c A, of c (A + a), and of c times the measure of the visits */
 	double leaves, tests, top_down, restart, step, start;
 	double area_inside, area_leaves;
 };
@@ -38,30 +44,50 @@ static bool is_outer(const struct sums *s, const struct box *b, int f)
 	return face_plane(b, f) == face_plane(&s->accel->root, f);
 }
 
-/* Measure of the rays that visit a cell. */
-static double measure_visits(const struct sums *s, const struct frame *c)
+/* Twice the surface inside a cell, as far as it adds to the rays that visit it. */
+static double surface_twice(const struct sums *s, const struct frame *c)
 {
 	double twice = 2 * c->surface.open;
 	for (int f = 0; f < 6; f++)
 		twice += c->surface.in_face[f] - (is_outer(s, &c->bounds, f) ? 0 : c->surface.covered[f]);
-	return box_area(&c->bounds) + (s->lines ? 0 : twice);
+	return twice;
+}
+
+/* Measure of the rays that visit a cell. */
+static double measure_visits(const struct sums *s, const struct frame *c)
+{
+	double sum = c->surface.open;
+	if (s->law != LAW_EXT)
+		return box_area(&c->bounds) + (s->law == LAW_LINES ? 0 : surface_twice(s, c));
+	for (int f = 0; f < 6; f++)
+		sum += c->outside[f];
+	return sum;
 }
 
 /* Measure of the rays that start in a cell. */
 static double measure_starts(const struct sums *s, const struct frame *c)
 {
-	double sum = s->lines ? 0 : 2 * c->surface.open;
+	double sum = s->law == LAW_LINES ? 0 : s->law == LAW_EXT ? c->surface.open : 2 * c->surface.open;
 	for (int f = 0; f < 6; f++) {
-		sum += s->lines ? 0 : c->surface.in_face[f];
+		sum += s->law == LAW_LINES ? 0 : s->law == LAW_EXT ? c->surface.facing[f] : c->surface.in_face[f];
 		sum += is_outer(s, &c->bounds, f) ? face_area(&c->bounds, f) : 0;
 	}
 	return sum;
+}
+
+/* Measure of the rays that cross face f of a cell in one direction. */
+static double measure_crossings(const struct sums *s, const struct frame *c, int f)
+{
+	if (s->law == LAW_EXT)
+		return c->outside[f] - c->surface.facing[f];
+	return face_area(&c->bounds, f) - (s->law == LAW_LINES ? 0 : c->surface.covered[f]);
 }
 
 static void add_leaf(struct sums *s, const struct cell *c, const struct frame *frame)
 {
 	double visits = measure_visits(s, frame), cost = s->alpha + s->beta * c->count;
 	s->weight += cost * c->area;
+	s->weight_one += cost * (c->area + surface_twice(s, frame) / 2);
 	s->weight_exact += cost * visits;
 	s->leaves += visits;
 	s->tests += c->count * visits;
@@ -70,8 +96,7 @@ static void add_leaf(struct sums *s, const struct cell *c, const struct frame *f
 	s->area_leaves += c->area;
 	s->area_inside += frame->surface.open;
 	for (int f = 0; f < 6; f++) {
-		double covered = s->lines ? 0 : frame->surface.covered[f];
-		s->step += c->steps[f] > 0 ? c->steps[f] * (face_area(&c->bounds, f) - covered) : 0;
+		s->step += c->steps[f] > 0 ? c->steps[f] * measure_crossings(s, frame, f) : 0;
 		s->area_inside += frame->surface.in_face[f] * (is_outer(s, &c->bounds, f) ? 1 : 0.5);
 	}
 }
@@ -91,6 +116,7 @@ static void close_frame(struct sums *s, int depth)
 		if (face_plane(&c->bounds, f) == face_plane(&around->bounds, f)) {
 			around->surface.in_face[f] += c->surface.in_face[f];
 			around->surface.covered[f] += c->surface.covered[f];
+			around->outside[f] += c->outside[f];
 		} else if (f % 2) {
 			around->surface.open += c->surface.in_face[f];
 		}
@@ -109,24 +135,44 @@ static int visit(void *ctx, const struct cell *c)
 		return 0;
 	if (surface_measure(&frame->surface, s->accel, c, s->err) != 0)
 		return -1;
+	if (s->law == LAW_EXT)
+		solid_measure(s->solid, c, frame->outside);
 	add_leaf(s, c, frame);
 	return 0;
 }
 
+/* What of a prediction a law has no formula for. */
+static void clear_unknown(struct prediction *p, enum law law)
+{
+	if (law == LAW_LINES)
+		p->predicted_one = NAN;
+	if (law == LAW_ONE_SIDED)
+		p->predicted_two_sided = p->predicted_exact = p->leaves = p->tests = p->inner_step = p->inner_start =
+			p->inner_top_down = p->inner_restart = NAN;
+	if (law == LAW_EXT)
+		p->predicted_two_sided = NAN;
+}
+
 int cost_predict(struct prediction *p, const struct accel *a, enum law law, double alpha, double beta, struct err *e)
 {
-	struct sums s = { .accel = a, .err = e, .depth = -1, .lines = law == LAW_LINES, .alpha = alpha, .beta = beta };
+	struct solid solid = { 0 };
+	struct sums s = { .accel = a, .err = e, .depth = -1, .law = law, .solid = &solid, .alpha = alpha, .beta = beta };
+	int status = law == LAW_EXT ? solid_open(&solid, a, e) : 0;
 	s.open = malloc(((size_t)a->depth + 1) * sizeof *s.open);
-	if (!s.open)
-		return err_memory(e, "prediction");
-	int status = a->ops->cells(a, visit, &s);
+	if (status == 0 && !s.open)
+		status = err_memory(e, "prediction");
+	if (status == 0)
+		status = a->ops->cells(a, visit, &s);
 	for (; s.depth >= 0; s.depth--)
 		close_frame(&s, s.depth);
 	free(s.open);
-	double area = s.lines ? 0 : a->primitives->area, all = box_area(&a->root) + 2 * area;
+	solid_close(&solid);
+	double area = law == LAW_LINES ? 0 : a->primitives->area, root = box_area(&a->root);
+	double all = root + (law == LAW_EXT ? 1 : 2) * area;
 	*p = (struct prediction){
-		.predicted = s.weight / (box_area(&a->root) + area),
-		.predicted_two_sided = s.weight / all,
+		.predicted = s.weight / (root + area),
+		.predicted_two_sided = s.weight / (root + 2 * area),
+		.predicted_one = s.weight_one / (root + area),
 		.predicted_exact = s.weight_exact / all,
 		.leaves = s.leaves / all,
 		.tests = s.tests / all,
@@ -137,5 +183,6 @@ int cost_predict(struct prediction *p, const struct accel *a, enum law law, doub
 		.area_inside = s.area_inside,
 		.area_leaves = s.area_leaves,
 	};
+	clear_unknown(p, law);
 	return status;
 }

@@ -5,14 +5,17 @@
 #include "accel/accel.h"
 
 /* The law the rays follow. RAYS: starts on the inner side of the root and on both sides of every primitive, uniform by area,
- * cosine law, ended by the first hit. LINES: starts on the root only, nothing stops them. */
-enum law { LAW_RAYS, LAW_LINES };
+ * cosine law, ended by the first hit. LINES: starts on the root only, nothing stops them. ONE_SIDED: RAYS from the front sides only;
+ * no exact form is known in areas alone, since it matters what lies behind. EXT: ONE_SIDED where the primitives are triangles that
+ * bound disjoint solids, so that no ray runs inside one. */
+enum law { LAW_RAYS, LAW_LINES, LAW_ONE_SIDED, LAW_EXT };
 
 /* Expected counts per ray; costs are alpha * leaves + beta * tests. NAN: no formula. */
 struct prediction {
 	double predicted;           /* E, eq. (3) of Aronov et al. 2002 as printed: one-sided area, surface term dropped */
 	double predicted_two_sided; /* E2: the same with the two-sided area */
 	double predicted_exact;     /* E*: the expected cost, exactly */
+	double predicted_one;       /* E* as printed: eq. (2), one-sided area both in the surface term and below */
 	double leaves, tests;       /* expected counts, exactly */
 	double inner_step, inner_start;
 	double inner_top_down;      /* inner nodes of a recursive front-to-back traversal */
@@ -21,7 +24,7 @@ struct prediction {
 	double area_leaves;         /* sum of the leaves' surface areas */
 };
 
-/* 0, or -1 and *e (memory). */
+/* 0, or -1 and *e: memory; EXT over what bounds no solids. */
 int cost_predict(struct prediction *p, const struct accel *a, enum law law, double alpha, double beta, struct err *e);
 
 #endif

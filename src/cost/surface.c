@@ -112,6 +112,7 @@ static int measure_face(struct surface *s, const struct accel *a, const struct c
 		if (fabs(area) <= cover.least)
 			continue;
 		s->in_face[f] += fabs(area);
+		s->facing[f] += (area > 0) == (f % 2 == 0) ? fabs(area) : 0;
 		cover.turn[cover.count] = area > 0 ? 1 : -1;
 		cover.polygon[cover.count++] = p;
 	}

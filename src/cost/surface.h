@@ -8,6 +8,7 @@
 struct surface {
 	double open;       /* inside the open cell */
 	double in_face[6]; /* of triangles lying in face f, within it; overlapping ones add up */
+	double facing[6];  /* those of in_face whose front looks into the cell */
 	double covered[6]; /* of the part of face f they cover; for faces of the root not needed and equal to in_face */
 };
 

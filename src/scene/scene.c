@@ -103,6 +103,17 @@ void scene_add_patch(struct scene *s, const struct vec *corners, const struct ve
 	add_object(s, (struct object){ .kind = OBJECT_PATCH, .count = (uint32_t)count }, corners, normals);
 }
 
+void scene_copy_setting(struct scene *to, const struct scene *from)
+{
+	to->background_given = from->background_given;
+	to->background = from->background;
+	to->view = from->view;
+	for (size_t i = 0; i < from->light_count; i++)
+		add_light(to, from->lights[i]);
+	for (size_t i = 0; i < from->material_count; i++)
+		scene_add_material(to, from->materials[i]);
+}
+
 int scene_complete(const struct scene *s, const char *name, struct err *e)
 {
 	return s->lost ? err_memory(e, name) : 0;

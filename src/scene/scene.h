@@ -86,6 +86,9 @@ void scene_add_polygon(struct scene *s, const struct vec *corners, size_t count)
 /* corners[count] and normals[count]; copied */
 void scene_add_patch(struct scene *s, const struct vec *corners, const struct vec *normals, size_t count);
 
+/* Copy all but the objects: view, background, lights, materials. to: empty. */
+void scene_copy_setting(struct scene *to, const struct scene *from);
+
 /* 0, or -1 and *e when memory ran out while the scene was filled. Call once after filling. */
 int scene_complete(const struct scene *s, const char *name, struct err *e);
 

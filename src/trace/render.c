@@ -10,32 +10,22 @@
 /* Samples traced together; and blocks between two reports of progress, for each thread. */
 enum { BLOCK = 1024, BAND = 16 };
 
-static const char *const sampling_words[] = { "centers", "corners", NULL };
-static const char *const shadows_words[] = { "all", "facing", NULL };
-static const char *const preset_words[] = { "none", "spd", NULL };
+const char *const render_sampling_words[] = { "centers", "corners", NULL };
+const char *const render_shadows_words[] = { "all", "facing", NULL };
+const char *const render_preset_words[] = { "none", "spd", NULL };
 const char *const ray_class_words[] = { "primary", "shadow", "reflected", "refracted", NULL };
 
-#define AT(field) offsetof(struct render_options, field)
-const struct key render_keys[] = {
-	{ "preset", KEY_WORD, AT(preset), 0, 0, PRESET_NONE, preset_words,
-	  "spd: the procedure of the SPD scenes: pixel corners, depth 5, no limit on weight" },
-	{ "width", KEY_INT, AT(width), 1, 16384, 512, NULL, "pixels" },
-	{ "height", KEY_INT, AT(height), 1, 16384, 512, NULL, "pixels" },
-	{ "sampling", KEY_WORD, AT(sampling), 0, 0, SAMPLE_CENTERS, sampling_words, "primary rays through pixel centres or corners" },
-	{ "shadows", KEY_WORD, AT(shadows), 0, 0, SHADOWS_ALL, shadows_words,
-	  "a hit sends shadow rays to all lights, or to those its side of the surface faces" },
-	{ "depth", KEY_INT, AT(depth), 1, 32, 5, NULL, "of the tree of rays; a primary ray has 1" },
-	{ "weight", KEY_REAL, AT(weight), 0, 1, 0, NULL, "rays that could add less than this share to a pixel are not shot" },
-	{ 0 }
+struct alone {
+	struct render_options options;
 };
-#undef AT
+const struct key render_keys[] = { RENDER_KEYS(struct alone, options), { 0 } };
 
 void render_resolve(struct render_options *o)
 {
 	if (o->preset != PRESET_SPD)
 		return;
 	o->sampling = SAMPLE_CORNERS;
-	o->depth = 5;
+	o->ray_depth = 5;
 	o->weight = 0;
 }
 
@@ -163,7 +153,7 @@ static void push_bounces(struct block *b, const struct surface_point *p, const s
 	double mirrored = p->material->ks, transmitted = p->material->transmit;
 	double least = o->weight / fmax(fmax(from->weight.r, from->weight.g), fmax(from->weight.b, 1e-300));
 	struct ray ray = { .o = p->at, .t_max = INFINITY, .slack = r->slack, .from = id, .clear = true };
-	if (from->depth >= o->depth)
+	if (from->depth >= o->ray_depth)
 		return;
 	if (transmitted > 0 && !refract(p, r->d, &ray.d)) {
 		mirrored += transmitted;

@@ -24,13 +24,27 @@ enum render_preset { PRESET_NONE, PRESET_SPD };
 
 struct render_options {
 	int64_t width, height; /* pixels */
-	int64_t depth;         /* a primary ray has 1, one it spawns 2, ...; shadow rays are not limited */
+	int64_t ray_depth;     /* a primary ray has 1, one it spawns 2, ...; shadow rays are not limited */
 	double weight;         /* rays that could add less than this share to a pixel are not shot */
 	int sampling, shadows, preset;
 };
 
-/* Ends with a NULL name. */
+/* The table of its options; ends with a NULL name. RENDER_KEYS: the same rows for a struct that holds the options as 'field'. */
 extern const struct key render_keys[];
+extern const char *const render_sampling_words[], *const render_shadows_words[], *const render_preset_words[];
+
+#define RENDER_KEYS(type, field) \
+	{ "preset", KEY_WORD, offsetof(type, field.preset), 0, 0, PRESET_NONE, render_preset_words, \
+	  "spd: the procedure of the SPD scenes: pixel corners, depth 5, no limit on weight" }, \
+	{ "width", KEY_INT, offsetof(type, field.width), 1, 16384, 512, NULL, "pixels" }, \
+	{ "height", KEY_INT, offsetof(type, field.height), 1, 16384, 512, NULL, "pixels" }, \
+	{ "sampling", KEY_WORD, offsetof(type, field.sampling), 0, 0, SAMPLE_CENTERS, render_sampling_words, \
+	  "primary rays through pixel centres or corners" }, \
+	{ "shadows", KEY_WORD, offsetof(type, field.shadows), 0, 0, SHADOWS_ALL, render_shadows_words, \
+	  "a hit sends shadow rays to all lights, or to those its side of the surface faces" }, \
+	{ "ray_depth", KEY_INT, offsetof(type, field.ray_depth), 1, 32, 5, NULL, "of the tree of rays; a primary ray has 1" }, \
+	{ "weight", KEY_REAL, offsetof(type, field.weight), 0, 1, 0, NULL, \
+	  "rays that could add less than this share to a pixel are not shot" }
 
 /* What the preset stands for put in the places of the single options. */
 void render_resolve(struct render_options *o);

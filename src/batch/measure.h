@@ -1,0 +1,34 @@
+/* What is measured: rays of a law, or the rays of an image. */
+#ifndef BATCH_MEASURE_H
+#define BATCH_MEASURE_H
+
+#include "base/key.h"
+#include "trace/render.h"
+
+enum { RAYS_INVARIANT, RAYS_LINES };
+enum { SIDES_TWO, SIDES_ONE, SIDES_EXT };
+
+struct measure_spec {
+	bool render;
+	double alpha, beta;
+	int rays, sides;             /* if not render */
+	int64_t count;
+	struct render_options image; /* if render */
+	int64_t pilot_width, pilot_height;
+};
+
+/* The options of either kind, in a struct measure_spec. */
+extern const struct key measure_rays_keys[], measure_image_keys[];
+
+static inline const struct key *measure_keys(const struct measure_spec *m)
+{
+	return m->render ? measure_image_keys : measure_rays_keys;
+}
+
+/* Where rays start and what stops them, in one word: invariant, invariant-one-sided, invariant-ext, lines, render. */
+const char *measure_workload(const struct measure_spec *m);
+
+/* "rays=invariant count=..." or "render width=...", into out[size]. */
+void measure_print(const struct measure_spec *m, char *out, size_t size);
+
+#endif
