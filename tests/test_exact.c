@@ -23,7 +23,7 @@ static void compare_all(const struct accel *a, enum workload w, uint64_t rays, c
 	struct prediction p;
 	struct actual actual;
 	char name[160];
-	enum law law = w == WORKLOAD_LINES ? LAW_LINES : LAW_RAYS;
+	enum law law = w == WORKLOAD_LINES ? LAW_LINES : w == WORKLOAD_ONE_SIDED ? LAW_EXT : LAW_RAYS;
 	if (cost_predict(&p, a, law, 1, 1, &e) != 0 ||
 	    shoot_rays(&actual, a, w, rays, 2002, 1, 1, par_processors(), NULL, &e) != 0)
 		fail_msg("%s", e.text);
@@ -44,8 +44,8 @@ static void compare_variants(const struct primitives *p, const char *scene, enum
 	for (int v = 0; v < 12; v++) {
 		struct err e = { 0 };
 		struct accel a;
-		const struct octree_options o = { v & 1, (const int[]){ 2, 5, 10 }[v / 4], 8, v & 2 ? ROOT_BOX : ROOT_CUBE,
-			                          OVERLAP_EXACT };
+		const struct octree_options o = { .balanced = v & 1, .max_objects = (const int[]){ 2, 5, 10 }[v / 4], .max_depth = 8,
+			                          .root = v & 2 ? ROOT_BOX : ROOT_CUBE };
 		char what[120];
 		snprintf(what, sizeof what, "%s balanced=%d max_objects=%d root=%s", scene, o.balanced, (int)o.max_objects,
 		         o.root == ROOT_BOX ? "box" : "cube");
@@ -109,6 +109,71 @@ static void faces_in_cell_planes(void **state)
 	primitives_free(&p);
 }
 
+/* Rays that start outside of closed solids only. */
+static void one_sided_rays_outside_of_solids(void **state)
+{
+	(void)state;
+	static const struct { const char *family; int least, most; } scenes[] = { { "sphere", 1, 3 }, { "tetra", 2, 4 } };
+	for (int i = 0; i < 2; i++)
+		for (int size = scenes[i].least; size <= scenes[i].most; size++) {
+			char scene[64];
+			snprintf(scene, sizeof scene, "outside of %s-%d", scenes[i].family, size);
+			struct primitives p = make_spd(scenes[i].family, size, false);
+			compare_variants(&p, scene, WORKLOAD_ONE_SIDED, RAYS);
+			primitives_free(&p);
+		}
+}
+
+/* Solids flush with the root and with cell planes. */
+static void solids_in_cell_planes(void **state)
+{
+	(void)state;
+	struct scene s = { 0 };
+	add_box(&s, vec(0, 0, 0), vec(0.25, 0.25, 0.5));
+	add_box(&s, vec(0.375, 0, 0), vec(0.5, 0.125, 0.3));
+	add_box(&s, vec(0.25, 0.5, 0.25), vec(0.75, 0.75, 0.5));
+	add_box(&s, vec(0.5, 0.5, 0.625), vec(0.6, 0.6, 1));
+	add_box(&s, vec(0.9, 0.875, 0.875), vec(1, 1, 1));
+	struct primitives p = make_primitives(&s);
+	compare_variants(&p, "solid boxes", WORKLOAD_ONE_SIDED, RAYS);
+	primitives_free(&p);
+}
+
+static void open_surfaces_are_no_solids(void **state)
+{
+	(void)state;
+	static const char *const families[] = { "teapot", "balls" };
+	for (int i = 0; i < 2; i++) {
+		struct err e = { 0 };
+		struct primitives p = make_spd(families[i], 1, false);
+		struct prediction q;
+		struct accel a;
+		int root = ROOT_BOX;
+		assert_int_equal(accel_build(&a, accel_find("list"), &root, &p, &e), 0);
+		assert_int_equal(cost_predict(&q, &a, LAW_EXT, 1, 1, &e), -1);
+		assert_int_equal(e.code, STATUS_INPUT);
+		accel_free(&a);
+		primitives_free(&p);
+	}
+}
+
+/* Other criteria make other trees; the prediction does not care. */
+static void features_and_chance_are_exact_too(void **state)
+{
+	(void)state;
+	struct primitives p = make_spd("gears", 1, false);
+	for (int v = 0; v < 4; v++) {
+		struct err e = { 0 };
+		struct accel a;
+		struct octree_options o = { .balanced = v & 1, .max_depth = 7, .criterion = v & 2 ? CRITERION_FEATURES : CRITERION_RANDOM,
+			                    .run = v + 1, .cutoff = 0.02 };
+		assert_int_equal(accel_build(&a, accel_find("octree"), &o, &p, &e), 0);
+		compare_all(&a, WORKLOAD_INVARIANT, RAYS / 2, v & 2 ? "features" : "random");
+		accel_free(&a);
+	}
+	primitives_free(&p);
+}
+
 static void the_list_is_exact_too(void **state)
 {
 	(void)state;
@@ -131,7 +196,7 @@ static void bounding_box_lists_are_exact_too(void **state)
 	struct err e = { 0 };
 	struct primitives p = make_spd("gears", 1, false);
 	struct accel a;
-	const struct octree_options o = { false, 5, 7, ROOT_CUBE, OVERLAP_BBOX };
+	const struct octree_options o = { .max_objects = 5, .max_depth = 7, .overlap = OVERLAP_BBOX };
 	assert_int_equal(accel_build(&a, accel_find("octree"), &o, &p, &e), 0);
 	compare_all(&a, WORKLOAD_INVARIANT, RAYS, "overlap=bbox");
 	accel_free(&a);
@@ -173,6 +238,10 @@ int main(void)
 		{ "rays in spd scenes: sphere", rays_in_spd_scenes, NULL, NULL, &sphere },
 		cmocka_unit_test(lines_in_gears),
 		cmocka_unit_test(faces_in_cell_planes),
+		cmocka_unit_test(one_sided_rays_outside_of_solids),
+		cmocka_unit_test(solids_in_cell_planes),
+		cmocka_unit_test(open_surfaces_are_no_solids),
+		cmocka_unit_test(features_and_chance_are_exact_too),
 		cmocka_unit_test(the_list_is_exact_too),
 		cmocka_unit_test(bounding_box_lists_are_exact_too),
 		cmocka_unit_test(threads_do_not_matter),

@@ -32,14 +32,14 @@ static void lists_are_swept_last_key_fastest(void **state)
 	struct err e = { 0 };
 	char text[1000], variant[200];
 	static const char *const want[] = {
-		"octree balanced=false max_objects=2 root=cube max_depth=3 overlap=exact",
-		"octree balanced=false max_objects=2 root=box max_depth=3 overlap=exact",
-		"octree balanced=false max_objects=5 root=cube max_depth=3 overlap=exact",
-		"octree balanced=false max_objects=5 root=box max_depth=3 overlap=exact",
-		"octree balanced=true max_objects=2 root=cube max_depth=3 overlap=exact",
-		"octree balanced=true max_objects=2 root=box max_depth=3 overlap=exact",
-		"octree balanced=true max_objects=5 root=cube max_depth=3 overlap=exact",
-		"octree balanced=true max_objects=5 root=box max_depth=3 overlap=exact",
+		"octree balanced=false max_objects=2 root=cube max_depth=3 overlap=exact criterion=objects",
+		"octree balanced=false max_objects=2 root=box max_depth=3 overlap=exact criterion=objects",
+		"octree balanced=false max_objects=5 root=cube max_depth=3 overlap=exact criterion=objects",
+		"octree balanced=false max_objects=5 root=box max_depth=3 overlap=exact criterion=objects",
+		"octree balanced=true max_objects=2 root=cube max_depth=3 overlap=exact criterion=objects",
+		"octree balanced=true max_objects=2 root=box max_depth=3 overlap=exact criterion=objects",
+		"octree balanced=true max_objects=5 root=cube max_depth=3 overlap=exact criterion=objects",
+		"octree balanced=true max_objects=5 root=box max_depth=3 overlap=exact criterion=objects",
 		"list root=box",
 	};
 	snprintf(text, sizeof text, "%sseed: 9\nscenes: [{spd: \"${text}\", size: ${size}}, {spd: balls, tessellate: [false, true]}]\n"
@@ -62,6 +62,37 @@ static void lists_are_swept_last_key_fastest(void **state)
 	assert_int_equal(job.measure_count, 5);
 	assert_true(job.measures[2].rays == RAYS_LINES && job.measures[2].count == 10 && job.measures[3].count == 20);
 	assert_true(job.measures[4].sides == SIDES_ONE && job.measures[4].alpha == 0.5 && job.measures[4].beta == 1);
+	job_free(&job);
+}
+
+static void experiments_keep_to_themselves(void **state)
+{
+	(void)state;
+	struct job job;
+	struct err e = { 0 };
+	static const char text[] =
+		"name: t\nseed: 7\nexperiments:\n"
+		"  - scenes: [{spd: tetra, size: [2, 3]}]\n    structures: [{octree: {max_objects: [2, 5]}}]\n"
+		"    measure: [{render: {width: 8, height: [4, 8], preset: spd}}]\n"
+		"  - scenes: [{spd: tetra, size: 3}]\n    structures: [{octree: {criterion: random, runs: 3}}, list]\n"
+		"    measure: [{rays: invariant, count: [10, 20, 30], sides: ext}]\n";
+	if (read_job(&job, text, NULL, 0, &e) != 0)
+		fail_msg("%s", e.text);
+	assert_int_equal(job.experiment_count, 2);
+	assert_int_equal(job_rows(&job), 2 * 2 * 2 + 1 * 4 * 3);
+	assert_int_equal(job.experiments[1].scene_first, 2);
+	assert_int_equal(job.experiments[1].structure_count, 4);
+	char variant[200];
+	for (size_t i = 0; i < 3; i++) {
+		char want[200];
+		structure_print(&job.structures[2 + i], variant, sizeof variant);
+		snprintf(want, sizeof want, "octree balanced=false root=box max_depth=8 overlap=exact criterion=random root_level=0 run=%zu "
+		         "seed=7", i + 1);
+		assert_string_equal(variant, want);
+	}
+	measure_print(&job.measures[1], variant, sizeof variant);
+	assert_string_equal(variant, "render preset=spd width=8 height=8 sampling=corners shadows=all ray_depth=5 weight=0 "
+	                             "pilot_width=32 pilot_height=32 alpha=1 beta=1");
 	job_free(&job);
 }
 
@@ -191,16 +222,19 @@ static void columns_are_unique_and_explained(void **state)
 		assert_int_equal(row_column(row_columns[i].name), i);
 		assert_true(strlen(row_columns[i].text) > 5);
 	}
-	/* Every option of every structure has its column. */
+	/* Every option of every structure and every image has its column, but for those a job expands. */
 	for (const struct accel_ops *const *ops = accel_all; *ops; ops++)
 		for (const struct key *k = (*ops)->keys; k->name; k++)
-			assert_true(row_column(k->name) >= 0);
+			assert_true(row_column(k->name) >= 0 || strcmp(k->name, "runs") == 0);
+	for (const struct key *k = measure_image_keys; k->name; k++)
+		assert_true(row_column(k->name) >= 0 || strcmp(k->name, "preset") == 0);
 }
 
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(lists_are_swept_last_key_fastest),
+		cmocka_unit_test(experiments_keep_to_themselves),
 		cmocka_unit_test(settings_override_variables),
 		cmocka_unit_test(too_many_rows_must_be_meant),
 		cmocka_unit_test(bad_jobs_say_why),

@@ -10,7 +10,7 @@
 
 static struct octree_options options(bool balanced, int max_objects, int max_depth, int root)
 {
-	return (struct octree_options){ balanced, max_objects, max_depth, root, OVERLAP_EXACT };
+	return (struct octree_options){ .balanced = balanced, .max_objects = max_objects, .max_depth = max_depth, .root = root };
 }
 
 static struct accel build(const struct primitives *p, struct octree_options o)
@@ -235,6 +235,50 @@ static void agrees_with_list(void **state)
 	}
 }
 
+/* Nodes of random octrees: the next level has 8 P(l) times as many, P = min(1, 2 / l), up to level 8. */
+static void random_octrees_are_as_large_as_expected(void **state)
+{
+	(void)state;
+	struct primitives p = make_spd("tetra", 1, false);
+	for (int root_level = 0; root_level <= 1; root_level++) {
+		int runs = root_level ? 50 : 12;
+		double expected = 1, level_nodes = 1, sum = 0, square = 0;
+		for (int level = root_level; level < 8; level++)
+			expected += level_nodes *= 8 * (level < 2 ? 1 : 2.0 / level);
+		assert_near(expected, root_level ? 44430 : 355442, 1);
+		for (int run = 1; run <= runs; run++) {
+			struct octree_options o = { .max_depth = 10, .criterion = CRITERION_RANDOM, .root_level = root_level, .run = run };
+			struct accel a = build(&p, o);
+			assert_true(a.depth == 8 - root_level);
+			sum += (double)a.nodes;
+			square += (double)a.nodes * (double)a.nodes;
+			accel_free(&a);
+		}
+		double mean = sum / runs, deviation = sqrt((square / runs - mean * mean) / (runs - 1));
+		assert_near(mean, expected, 3 * deviation);
+	}
+	primitives_free(&p);
+}
+
+/* A tree split for features: no leaf above the cut-off meets an edge, and faces alone split nothing. */
+static void features_are_isolated(void **state)
+{
+	(void)state;
+	struct scene s = { 0 };
+	scene_add_polygon(&s, (const struct vec[3]){ vec(0, 0, 0), vec(1, 0, 0.3), vec(0, 1, 0.6) }, 3);
+	struct primitives p = make_primitives(&s);
+	struct octree_options o = { .max_depth = 9, .criterion = CRITERION_FEATURES, .cutoff = 1.0 / 32 };
+	struct accel a = build(&p, o);
+	must_hold(&a);
+	assert_int_equal(a.depth, 5);
+	struct octree_options everywhere = { .max_objects = 0, .max_depth = 5 };
+	struct accel b = build(&p, everywhere);
+	assert_true(a.leaves < b.leaves); /* the inside of the triangle is not refined */
+	accel_free(&a);
+	accel_free(&b);
+	primitives_free(&p);
+}
+
 static void memory_is_bounded(void **state)
 {
 	(void)state;
@@ -256,6 +300,8 @@ int main(void)
 		cmocka_unit_test(roots_end_on_the_grid),
 		cmocka_unit_test(checkerboard_overhead),
 		cmocka_unit_test(agrees_with_list),
+		cmocka_unit_test(random_octrees_are_as_large_as_expected),
+		cmocka_unit_test(features_are_isolated),
 		cmocka_unit_test(memory_is_bounded),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,7 +15,7 @@ struct box root_box(const struct box *bounds, enum root_kind kind);
  * nothing: it misses the root, ends before it, or leads out of it from within slack of a side. */
 static inline bool root_enter(const struct box *root, const struct ray *r, struct vec per_d, double slack, struct vec *start)
 {
-	double t_in = 0, t_out = r->t_max;
+	double t_in = 0, t_out = r->t_max + slack; /* one that ends on a side comes in */
 	*start = r->o;
 	for (int i = 0; i < 3; i++) {
 		double below = root->lo.a[i] - r->o.a[i], above = root->hi.a[i] - r->o.a[i];

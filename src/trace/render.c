@@ -114,14 +114,26 @@ static void push(struct block *b, struct wave *w, struct ray r, struct origin fr
 	w->origins[w->count++] = from;
 }
 
+/* Where sample number i lies in the image. */
+static void place_sample(const struct render *r, size_t i, double *x, double *y)
+{
+	static const double golden = 0.61803398874989485;
+	double shift = r->options->sampling == SAMPLE_CORNERS ? 0 : 0.5, at = (double)i + 0.5;
+	if (r->options->sampling == SAMPLE_LATTICE) {
+		*x = at / (double)r->samples;
+		*y = at * golden - floor(at * golden);
+	} else {
+		*x = ((double)(i % r->columns) + shift) / (double)r->options->width;
+		*y = ((double)(i / r->columns) + shift) / (double)r->options->height;
+	}
+}
+
 static void push_primaries(struct block *b, size_t first, size_t count)
 {
 	const struct render *r = b->render;
-	bool corners = r->options->sampling == SAMPLE_CORNERS;
-	double shift = corners ? 0 : 0.5;
 	for (size_t i = 0; i < count; i++) {
-		double x = ((double)((first + i) % r->columns) + shift) / (double)r->options->width;
-		double y = ((double)((first + i) / r->columns) + shift) / (double)r->options->height;
+		double x, y;
+		place_sample(r, first + i, &x, &y);
 		struct ray ray = { .o = r->camera.from, .d = camera_direction(&r->camera, x, y), .t_max = INFINITY,
 			           .slack = r->accel->slack, .from = NO_PRIMITIVE };
 		push(b, &b->now, ray, (struct origin){ { 1, 1, 1 }, (uint32_t)i, RAY_PRIMARY, 1 });

@@ -13,8 +13,9 @@
 #include <stdatomic.h>
 
 /* CENTERS: a sample in the middle of every pixel. CORNERS: one at every pixel corner, (width + 1)(height + 1) of them, the first and
- * the last on the image's edges; a pixel is the mean of its four. */
-enum render_sampling { SAMPLE_CENTERS, SAMPLE_CORNERS };
+ * the last on the image's edges; a pixel is the mean of its four. LATTICE: as many samples as pixels, but evenly spread in all
+ * directions (x by rank, y by the golden section) where the rows of a small image would miss what repeats; for pilots, no image. */
+enum render_sampling { SAMPLE_CENTERS, SAMPLE_CORNERS, SAMPLE_LATTICE };
 
 /* ALL: every hit sends a shadow ray to every light; FACING: only to the lights its side of the surface faces. */
 enum render_shadows { SHADOWS_ALL, SHADOWS_FACING };

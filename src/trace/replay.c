@@ -19,7 +19,7 @@ int pilot_make(struct pilot *p, const struct scene *s, const struct accel *a, co
 	const struct render_run run = { .alpha = 1, .beta = 1, .threads = threads, .segments = true, .stop = stop };
 	small.width = width;
 	small.height = height;
-	small.sampling = SAMPLE_CENTERS;
+	small.sampling = SAMPLE_LATTICE;
 	p->samples = (size_t)(width * height);
 	return render_scene(&p->image, s, a, &small, &run, e);
 }
