@@ -6,8 +6,8 @@ WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -W
 CF       = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(OPT) -g -ffp-contract=off -pthread -Isrc -I. \
            $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all) $(CFLAGS)
 LIBS    := -lyaml -lpng -lz -lm
-FLOORS  := base geom scene spd io accel cost trace batch cli
-PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev
+FLOORS  := base geom scene spd io accel cost trace batch report cli
+PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev gnuplot-nox
 VERSION := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
 
 OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c))
@@ -36,6 +36,9 @@ layers: ## prove that every folder includes only its own floor and those below
 
 sweep: all ## predicted and actual cost of every octree variant; SIZE=1,2,3 chooses the scenes' sizes
 	@$(BUILD)/raycost run jobs/sweep.yaml $${SIZE:+--set "size=$$SIZE"}
+
+paper: all ## the experiments of "Cost prediction for ray shooting", with a report
+	@$(BUILD)/raycost run jobs/aronov2002.yaml
 
 bench: $(BUILD)/tests/bench ## time building and shooting, beside Embree where libembree-dev is installed
 	@./$(BUILD)/tests/bench
@@ -72,6 +75,6 @@ $(BUILD)/version: .FORCE
 
 -include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d
 
-.PHONY: all deps test layers sweep bench golden clean help .FORCE
+.PHONY: all deps test layers sweep paper bench golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:

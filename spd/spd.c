@@ -6,14 +6,18 @@
 #include <string.h>
 
 extern const struct spd_family spd_tetra, spd_balls, spd_gears, spd_teapot, spd_mount, spd_rings, spd_tree, spd_lattice,
-	spd_shells, spd_sombrero, spd_jacks, spd_nurbtst, spd_sample, spd_sphere, spd_soup_family;
+	spd_shells, spd_sombrero, spd_jacks, spd_nurbtst, spd_sample, spd_sphere, spd_soup_family, spd_city, spd_town,
+	spd_wall;
 
 const struct spd_family *const spd_families[] = {
 	&spd_tetra, &spd_balls, &spd_gears, &spd_teapot, &spd_mount, &spd_rings, &spd_tree, &spd_lattice, &spd_shells,
-	&spd_sombrero, &spd_jacks, &spd_nurbtst, &spd_sample, &spd_sphere, &spd_soup_family, NULL
+	&spd_sombrero, &spd_jacks, &spd_nurbtst, &spd_sample, &spd_sphere, &spd_soup_family, &spd_city, &spd_town,
+	&spd_wall, NULL
 };
 
 static const char *const variants[] = { "current", "pre2021", NULL };
+static const char *const plans[] = { "lower", "mid", NULL };
+static const char *const cameras[] = { "exterior", "interior", NULL };
 
 #define AT(field) offsetof(struct spd_options, field)
 const struct key spd_keys[] = {
@@ -24,6 +28,8 @@ const struct key spd_keys[] = {
 	{ "count", KEY_INT, AT(count), 1, 2e9, 10000, NULL, "number of triangles" },
 	{ "cube", KEY_REAL, AT(cube), 1e-6, 1e6, 20, NULL, "side of the cube the triangles' right angles lie in" },
 	{ "seed", KEY_INT, AT(seed), 0, 9e15, 1, NULL, "of the random numbers" },
+	{ "plan", KEY_WORD, AT(plan), 0, 0, SPD_LOWER, plans, "irregular quarters, or a grid with taller buildings" },
+	{ "camera", KEY_WORD, AT(camera), 0, 0, SPD_EXTERIOR, cameras, "where it stands: outside, or inside among the walls" },
 	{ "exponent", KEY_REAL, AT(exponent), 1e-6, 10, 0.15, NULL, "growth of the spiral" },
 	{ "alpha", KEY_REAL, AT(alpha), 0, 1e6, 0, NULL, "if positive: height = alpha * angle" },
 	{ "beta", KEY_REAL, AT(beta), -1e6, 1e6, -2, NULL, "else: height = beta * distance from the axis" },

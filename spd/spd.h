@@ -15,12 +15,16 @@ struct spd_options {
 	int variant;        /* enum spd_variant: balls */
 	int64_t count;      /* soup: triangles */
 	double cube;        /* soup: side of the cube the triangles lie in */
-	int64_t seed;       /* soup */
+	int64_t seed;       /* soup, city, town, wall */
+	int plan;           /* enum spd_plan: city */
+	int camera;         /* enum spd_camera: city, town, wall */
 	double exponent, alpha, beta, gamma; /* shells */
 };
 
 enum { SPD_DEFAULT_SIZE = -1 };
 enum spd_variant { SPD_CURRENT, SPD_PRE2021 };
+enum spd_plan { SPD_LOWER, SPD_MID };
+enum spd_camera { SPD_EXTERIOR, SPD_INTERIOR };
 
 /* One family. fill adds everything to an empty scene; it cannot fail otherwise than by memory (scene_complete tells).
  * options: names of the keys in spd_keys it uses besides size, NULL-terminated. */

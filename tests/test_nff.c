@@ -35,7 +35,7 @@ static void written_scenes_read_back(void **state)
 			struct spd_options o;
 			int digits = i & 1 ? 17 : 6;
 			key_defaults(spd_keys, &o);
-			o.size = (*f)->default_size ? 1 : SPD_DEFAULT_SIZE;
+			o.size = !(*f)->default_size ? SPD_DEFAULT_SIZE : (*f)->least_size > 1 ? (*f)->least_size : 1;
 			o.tessellate = i & 2;
 			o.count = 100;
 			assert_int_equal(spd_generate(&made, *f, &o, &e), 0);

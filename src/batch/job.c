@@ -7,11 +7,14 @@
 #include <string.h>
 
 struct output_spec {
-	bool scenes, images;
+	bool scenes, images, drawings, report;
 };
 static const struct key output_keys[] = {
 	{ "scenes", KEY_BOOL, offsetof(struct output_spec, scenes), 0, 1, 0, NULL, "keep every scene as scenes/NAME.nff.gz" },
 	{ "images", KEY_BOOL, offsetof(struct output_spec, images), 0, 1, 0, NULL, "keep every rendering as images/NAME.png" },
+	{ "drawings", KEY_BOOL, offsetof(struct output_spec, drawings), 0, 1, 0, NULL,
+	  "edges, rays and visited leaves of small scenes as drawings/NAME.dat" },
+	{ "report", KEY_BOOL, offsetof(struct output_spec, report), 0, 1, 0, NULL, "plots and report.html at the end" },
 	{ 0 }
 };
 
@@ -215,6 +218,8 @@ static void read_head(struct job_reader *r, const struct yaml_node *root)
 	r->job->seed = head.seed;
 	r->job->save_scenes = output.scenes;
 	r->job->save_images = output.images;
+	r->job->save_drawings = output.drawings;
+	r->job->report = output.report;
 }
 
 /* Replace variables by what the command line sets. */

@@ -33,7 +33,8 @@ struct job {
 	struct arena mem;
 	const char *name, *text; /* text: of the file, for the manifest */
 	int64_t seed;
-	bool save_scenes, save_images;
+	bool save_scenes, save_images, save_drawings;
+	bool report; /* wanted at the end; the caller's business */
 	struct scene_spec *scenes;
 	struct structure_spec *structures;
 	struct measure_spec *measures;

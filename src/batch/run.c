@@ -3,22 +3,19 @@
 #include "base/progress.h"
 #include "base/rng.h"
 #include "batch/imaging.h"
+#include "batch/keep.h"
 #include "batch/load.h"
 #include "batch/manifest.h"
 #include "batch/record.h"
 #include "batch/row.h"
 #include "batch/summary.h"
-#include "io/png.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 struct run {
 	const struct job *job;
@@ -36,8 +33,8 @@ struct bench {
 	struct scene setting;
 	struct imaging *imagings; /* for every measure of the experiment */
 	uint64_t text_hash;       /* of its NFF text: view, lights and materials too */
-	bool loaded;
-	struct err fault; /* why not */
+	bool loaded, drawn;
+	struct err fault; /* why not loaded */
 };
 
 /* A structure built for the measures of one row after the other. */
@@ -112,21 +109,13 @@ static int predict(struct row *row, struct built *built, const struct measure_sp
 	return built->predicted ? 0 : -1;
 }
 
-/* Keep the image as images/NAME.png; the measure's number is added where an experiment has several. */
-static int save_image(struct run *r, const struct bench *bench, size_t measure, const struct rendering *image)
+/* The number of an image among those of its experiment, 0 where it is the only one. */
+static size_t number_image(const struct run *r, const struct experiment *x, size_t measure)
 {
-	char path[4096], number[24] = "";
-	const struct measure_spec *m = &r->job->measures[bench->experiment->measure_first + measure];
-	size_t renders = 0;
-	for (size_t i = 0; i < bench->experiment->measure_count; i++)
-		renders += r->job->measures[bench->experiment->measure_first + i].render;
-	snprintf(path, sizeof path, "%s/images", r->record.folder);
-	if (mkdir(path, 0777) != 0 && errno != EEXIST)
-		return err_at(r->err, STATUS_ENVIRONMENT, path, 0, "%s", strerror(errno));
-	if (renders > 1)
-		snprintf(number, sizeof number, "-%zu", measure + 1);
-	snprintf(path, sizeof path, "%s/images/%s%s.png", r->record.folder, bench->scene->name, number);
-	return png_write_rgb(path, image->pixels, (int)m->image.width, (int)m->image.height, r->err);
+	size_t images = 0;
+	for (size_t i = 0; i < x->measure_count; i++)
+		images += r->job->measures[x->measure_first + i].render;
+	return images > 1 ? measure + 1 : 0;
 }
 
 /* Render, after the predictors have had their say. *seconds: of the rendering. Faults of the row go to *fault, others to r->err. */
@@ -145,7 +134,8 @@ static int measure_image(struct run *r, struct row *row, struct bench *bench, co
 	int status = render_scene(&image, &bench->setting, &built->accel, &m->image, &run, fault);
 	*seconds = clock_seconds() - start;
 	if (status == 0 && r->job->save_images && !imaging->saved)
-		imaging->saved = save_image(r, bench, measure, &image) == 0;
+		imaging->saved = keep_image(r->record.folder, bench->scene->name, number_image(r, bench->experiment, measure), &image,
+		                            &m->image, r->err) == 0;
 	row->actual = image.actual;
 	memcpy(row->classes, image.classes, sizeof row->classes);
 	rendering_free(&image);
@@ -208,6 +198,10 @@ static int do_row(struct run *r, struct bench *bench, struct built *built, size_
 	}
 	if (!built->ok)
 		return write_failure(r, &row, &built->fault);
+	if (r->job->save_drawings && !bench->drawn &&
+	    keep_drawing(r->record.folder, bench->scene->name, &built->accel, (uint64_t)r->job->seed, r->err) != 0)
+		return -1;
+	bench->drawn = true;
 	return measure_row(r, &row, bench, built, measure);
 }
 
@@ -224,17 +218,6 @@ static int do_structure(struct run *r, struct bench *bench, const struct structu
 	return status;
 }
 
-/* Keep the scene's text as scenes/NAME.nff.gz, unless it is there. */
-static int save_scene(struct run *r, const struct scene_spec *scene, const struct text *text)
-{
-	char path[4096];
-	snprintf(path, sizeof path, "%s/scenes", r->record.folder);
-	if (mkdir(path, 0777) != 0 && errno != EEXIST)
-		return err_at(r->err, STATUS_ENVIRONMENT, path, 0, "%s", strerror(errno));
-	snprintf(path, sizeof path, "%s/scenes/%s.nff.gz", r->record.folder, scene->name);
-	return access(path, F_OK) == 0 && !r->options->fresh ? 0 : text_write_file(text, path, r->err);
-}
-
 static int do_scene(struct run *r, const struct experiment *x, const struct scene_spec *scene)
 {
 	struct bench bench = { .experiment = x, .scene = scene };
@@ -245,7 +228,7 @@ static int do_scene(struct run *r, const struct experiment *x, const struct scen
 		return err_memory(r->err, "run");
 	bench.loaded = load_scene(&bench.primitives, &bench.setting, &text, scene, &bench.fault) == 0;
 	if (bench.loaded && r->job->save_scenes)
-		status = save_scene(r, scene, &text);
+		status = keep_scene(r->record.folder, scene->name, &text, r->options->fresh, r->err);
 	bench.text_hash = hash_bytes(text.bytes, text.size);
 	text_free(&text);
 	for (size_t i = 0; status == 0 && i < x->structure_count; i++)

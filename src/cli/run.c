@@ -3,6 +3,7 @@
 #include "batch/run.h"
 #include "batch/row.h"
 #include "cli/cli.h"
+#include "report/page.h"
 
 #include <string.h>
 
@@ -98,6 +99,8 @@ static int run(struct cli *cli, int count, char **words, struct err *e)
 	else if (a.dry_run)
 		print_plan(&cli->out, &job);
 	else if (run_job(&job, &a.run, &result, &cli->out, e) != 0)
+		status = e->code;
+	else if (job.report && report_write(result.folder, &cli->out, e) != 0)
 		status = e->code;
 	else if (result.failed)
 		status = STATUS_PARTIAL;

@@ -15,6 +15,8 @@ static const char help[] =
 	"  -o FILE             into a file, gzipped if it ends in .gz; default stdout\n"
 	"  --variant pre2021   balls: as programs before 2021 placed them\n"
 	"  -n COUNT --cube SIDE --seed S        soup: how many triangles, where, which\n"
+	"  --seed S --camera exterior|interior  city, town, wall: which, and where the camera stands\n"
+	"  --plan lower|mid    city: irregular quarters, or a regular grid with taller buildings\n"
 	"  -e X -a X -b X -g X                  shells: exponent, alpha, beta, gamma\n";
 
 struct arguments {
@@ -30,6 +32,7 @@ static const struct {
 } settings[] = {
 	{ "-s", "size" },   { "--variant", "variant" }, { "-n", "count" }, { "--cube", "cube" }, { "--seed", "seed" },
 	{ "-e", "exponent" }, { "-a", "alpha" },        { "-b", "beta" },  { "-g", "gamma" },
+	{ "--plan", "plan" }, { "--camera", "camera" },
 };
 
 static bool has_option(const struct spd_family *f, const char *key)
