@@ -135,7 +135,7 @@ static RTCScene build_embree(RTCDevice device, const struct primitives *p, doubl
 static double build_octree(struct accel *a, const struct primitives *p)
 {
 	double took[ROUNDS];
-	const struct octree_options o = { false, 10, 8, ROOT_BOX, OVERLAP_EXACT };
+	const struct octree_options o = { .max_objects = 10, .max_depth = 8, .root = ROOT_BOX };
 	for (int i = 0; i < ROUNDS; i++) {
 		struct err e = { 0 };
 		if (i)
