@@ -2,7 +2,7 @@ comma   := ,
 CC      ?= cc
 OPT     ?= -O3
 BUILD   := build/$(if $(SAN),$(subst $(comma),-,$(SAN)),plain)
-WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
+WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wno-psabi -Werror
 CF       = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(OPT) -g -ffp-contract=off -pthread -Isrc -I. \
            $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all) $(CFLAGS)
 LIBS    := -lyaml -lpng -lz -lm
@@ -10,7 +10,9 @@ FLOORS  := base geom scene spd io accel cost trace batch report cli
 PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev gnuplot-nox
 VERSION := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
 
-OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c))
+# Compiled a second time for processors with AVX2, chosen when the program runs.
+WIDE    := $(if $(filter x86_64,$(shell uname -m)),$(BUILD)/src/accel/octree_crowd.avx2.o)
+OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c)) $(WIDE)
 TESTS   := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
 
 # What SIZE holds reaches the sweep as data: not expanded by make, not read by the shell.
@@ -62,6 +64,10 @@ EMBREE := $(if $(wildcard /usr/include/embree3/rtcore.h),yes)
 $(BUILD)/tests/bench: $(BUILD)/tests/bench.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS) $(if $(EMBREE),-lembree3)
 $(BUILD)/tests/bench.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
+
+$(BUILD)/%.avx2.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(CF) -mavx2 -MMD -MP -c $< -o $@
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)

@@ -4,7 +4,7 @@
 #include "scene/tessellate.h"
 #include "spd/spd.h"
 #include "trace/rays.h"
-#include "trace/shoot.h"
+#include "trace/sort.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -64,15 +64,23 @@ static uint64_t shoot_counted(const void *what, const struct ray *rays)
 	return n.hits;
 }
 
-/* As a job does it, drawing and sorting the rays included. */
-static uint64_t shoot_job(const void *what, const struct ray *rays)
+/* As a job does it: sorted, shot and summed up a block at a time. */
+static uint64_t shoot_sorted(const void *what, const struct ray *rays)
 {
-	struct actual actual;
-	struct err e = { 0 };
-	(void)rays;
-	if (shoot_rays(&actual, what, WORKLOAD_INVARIANT, RAYS, 2002, 1, 1, 1, NULL, &e) != 0)
-		exit(1);
-	return actual.sum.hits;
+	static struct ray sorted[RAYS_BLOCK];
+	static struct sorter sorter;
+	static struct hit h[RAYS_BLOCK];
+	static struct tally n[RAYS_BLOCK];
+	const struct accel *a = what;
+	uint64_t hits = 0;
+	for (int i = 0; i < RAYS; i += RAYS_BLOCK) {
+		size_t count = RAYS - i < RAYS_BLOCK ? (size_t)(RAYS - i) : RAYS_BLOCK;
+		rays_sort(sorted, &sorter, &rays[i], count, &a->root);
+		a->ops->shoot_many(a, sorted, count, h, n);
+		for (size_t k = 0; k < count; k++)
+			hits += n[k].hits;
+	}
+	return hits;
 }
 
 static uint64_t shoot_many(const void *what, const struct ray *rays)
@@ -203,7 +211,7 @@ static int bench_scene(const char *family, int size)
 		rays[i] = ray_source_draw(&source, i);
 	printf("  rays drawn: %.1f M/s\n", RAYS / (seconds() - start) / 1e6);
 	struct peer peers[] = {
-		{ .name = "octree, as a job shoots", .shoot = shoot_job, .what = &tree },
+		{ .name = "octree, many, sorted, counted", .shoot = shoot_sorted, .what = &tree },
 		{ .name = "octree, many, counted", .shoot = shoot_many, .what = &tree },
 		{ .name = "octree, one by one, counted", .shoot = shoot_counted, .what = &tree },
 		{ .name = "octree, one by one", .shoot = shoot_fast, .what = &tree },

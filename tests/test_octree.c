@@ -54,14 +54,14 @@ static void check_corners(const struct octree *o)
 {
 	for (uint32_t i = 0; i < o->node_count; i++) {
 		const struct octree_node *n = &o->nodes[i];
-		for (int corner = 0; !n->child && corner < 8; corner++) {
+		for (int corner = 0; !n->inner && corner < 8; corner++) {
 			int32_t at[3];
 			for (int k = 0; k < 3; k++) { /* the grid cell just outside the corner */
 				at[k] = n->cell[k] + (corner >> k & 1 ? octree_side(n->depth) : -1);
 				at[k] = at[k] < 0 ? 0 : at[k] >= OCTREE_CELLS ? OCTREE_CELLS - 1 : at[k];
 			}
 			const struct octree_node *m = o->nodes;
-			while (m->child) {
+			while (m->inner) {
 				int shift = OCTREE_LEVELS - 1 - m->depth;
 				m = &o->nodes[m->child + (uint32_t)((at[0] >> shift & 1) | (at[1] >> shift & 1) << 1 |
 				                                    (at[2] >> shift & 1) << 2)];

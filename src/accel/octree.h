@@ -7,7 +7,7 @@
 #define ACCEL_OCTREE_H
 
 #include "accel/accel.h"
-#include "accel/block.h"
+#include "accel/axes.h"
 #include "accel/root.h"
 
 enum { OCTREE_LEVELS = 20, OCTREE_CELLS = 1 << OCTREE_LEVELS };
@@ -32,27 +32,36 @@ struct octree_options {
 	int64_t seed;                   /* RANDOM: with the scene and the run it determines the tree */
 };
 
-/* One cache line. Children stand together, number 4 z + 2 y + x (upper half: 1). */
+/* A list no longer than this lies in its leaf; longer ones lie in refs. */
+enum { OCTREE_SHORT = 5 };
+
+struct screen;
+
+/* One cache line. Children stand together, number 4 z + 2 y + x (upper half: 1). While a tree is being built all lists lie in refs. */
 struct octree_node {
-	uint32_t child;        /* the first of eight; 0: a leaf */
-	uint32_t first, count; /* leaf: its ids are refs[first .. first + count) */
-	int32_t cell[3];       /* lower corner on the grid */
-	uint32_t link[6];      /* leaf: the same-or-larger node across face 2 axis + upper, NO_NODE outside */
-	uint32_t block;        /* leaf: the first of its list's blocks */
-	float edge;            /* leaf: the longest edge in its list */
+	union {
+		uint32_t child;             /* inner: the first of eight */
+		uint32_t first;             /* leaf with a long list: its ids are refs[first .. first + count) */
+		uint32_t ids[OCTREE_SHORT]; /* leaf with a short one: the ids */
+	};
+	uint32_t count;   /* leaf: length of its list */
+	uint32_t link[6]; /* leaf: the same-or-larger node across face 2 axis + upper, NO_NODE outside */
+	int32_t cell[3];  /* lower corner on the grid */
 	uint8_t depth;
-	uint8_t unused[7];
+	bool inner;
+	uint8_t unused[2];
 };
 _Static_assert(sizeof(struct octree_node) == 64, "a node is a cache line");
 
 struct octree {
 	struct octree_node *nodes; /* depth first, root at 0 */
 	uint32_t *refs;
-	struct block *blocks;      /* the lists again, packed for the walk */
+	const struct screen *screens; /* of all primitives */
 	uint32_t *start;           /* [1 << 3 start_depth], x fastest: the node of that depth or the leaf around it */
 	int start_depth;
 	uint32_t node_count, ref_count;
-	struct vec step, per_step; /* grid spacing and its inverse */
+	axes lo, hi;               /* of the root */
+	axes step, per_step;       /* grid spacing and its inverse */
 	struct vec center;         /* of the root */
 	double diagonal;
 	struct octree_options options;
@@ -67,7 +76,13 @@ static inline int32_t octree_side(unsigned depth)
 /* Position of grid plane i. */
 static inline double octree_plane(const struct box *root, const struct octree *o, int axis, int32_t i)
 {
-	return root->lo.a[axis] + i * o->step.a[axis];
+	return root->lo.a[axis] + i * o->step[axis];
+}
+
+/* The list of a leaf of a finished tree. */
+static inline const uint32_t *octree_list(const struct octree *o, const struct octree_node *n)
+{
+	return n->count <= OCTREE_SHORT ? n->ids : o->refs + n->first;
 }
 
 /* The child of n on the way to grid cell 'at'. */
@@ -110,5 +125,14 @@ int octree_balance(struct octree_builder *b, struct err *e);
 int octree_build(struct accel *a, const void *opt, struct err *e);
 int octree_cells(const struct accel *a, cell_fn *fn, void *ctx);
 int octree_check(const struct accel *a, struct err *e);
+
+/* The door's walk of many rays (octree_crowd.c): for any processor, and for one with AVX2. OCTREE_CROWD: the one compiled for. */
+void octree_crowd(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n);
+void octree_crowd_avx2(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n);
+#ifdef __AVX2__
+#define OCTREE_CROWD octree_crowd_avx2
+#else
+#define OCTREE_CROWD octree_crowd
+#endif
 
 #endif

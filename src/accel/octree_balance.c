@@ -73,7 +73,7 @@ static bool too_coarse(const struct vertex_table *t, const struct octree_node *n
 /* Depth first below n, children in ascending or descending order; a leaf that is split is entered like an inner node. */
 static int pass(struct octree_builder *b, struct vertex_table *t, uint32_t n, bool descending, struct err *e)
 {
-	if (!b->tree.nodes[n].child) {
+	if (!b->tree.nodes[n].inner) {
 		if (!too_coarse(t, &b->tree.nodes[n]))
 			return 0;
 		if (octree_split(b, n, e) != 0)
@@ -93,7 +93,7 @@ int octree_balance(struct octree_builder *b, struct err *e)
 	struct vertex_table t = { 0 };
 	int status = grow_table(&t, e);
 	for (uint32_t n = 0; status == 0 && n < b->tree.node_count; n++)
-		if (!b->tree.nodes[n].child)
+		if (!b->tree.nodes[n].inner)
 			status = enter_leaf(&t, &b->tree.nodes[n], e);
 	for (int turn = 0; status == 0 && turn < 3; turn++)
 		status = pass(b, &t, 0, turn == 1, e);

@@ -1,9 +1,11 @@
 /* Building an octree: split while the criterion wants it, optionally balance, then lay nodes and lists out depth first
  * and link the leaves. */
 #include "accel/octree.h"
+#include "accel/screen.h"
 #include "geom/triangle.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 struct box octree_bounds(const struct box *root, const struct octree *o, const struct octree_node *n)
 {
@@ -98,6 +100,7 @@ static int add_children(struct octree_builder *b, uint32_t n, struct err *e)
 	if (reserve_nodes(b, 8, e) != 0)
 		return -1;
 	struct octree_node *parent = &b->tree.nodes[n];
+	parent->inner = true;
 	parent->child = b->tree.node_count;
 	int32_t half = octree_side(parent->depth) / 2;
 	for (int c = 0; c < 8; c++) {
@@ -141,10 +144,11 @@ int octree_split(struct octree_builder *b, uint32_t n, struct err *e)
 int octree_builder_open(struct octree_builder *b, const struct accel *a, const struct octree_options *o, struct err *e)
 {
 	*b = (struct octree_builder){ .primitives = a->primitives, .root = &a->root, .slack = a->slack, .tree.options = *o };
-	for (int i = 0; i < 3; i++) {
-		b->tree.step.a[i] = (a->root.hi.a[i] - a->root.lo.a[i]) / OCTREE_CELLS;
-		b->tree.per_step.a[i] = 1 / b->tree.step.a[i];
-	}
+	/* In the fourth lane nothing is ever outside. */
+	b->tree.lo = axes_of(a->root.lo, -INFINITY);
+	b->tree.hi = axes_of(a->root.hi, INFINITY);
+	b->tree.step = (b->tree.hi - b->tree.lo) / OCTREE_CELLS;
+	b->tree.per_step = 1 / b->tree.step;
 	b->tree.center = vec_scale(vec_add(a->root.lo, a->root.hi), 0.5);
 	b->tree.diagonal = box_diagonal(&a->root);
 	uint32_t count = a->primitives->count;
@@ -177,20 +181,22 @@ void octree_builder_close(struct octree_builder *b)
 static void lay_out(struct octree *to_tree, uint32_t to, const struct octree *from_tree, uint32_t from)
 {
 	struct octree_node *n = &to_tree->nodes[to];
-	*n = from_tree->nodes[from];
-	if (!n->child) {
-		for (uint32_t i = 0; i < n->count; i++)
-			to_tree->refs[to_tree->ref_count + i] = from_tree->refs[n->first + i];
-		n->first = to_tree->ref_count;
-		to_tree->ref_count += n->count;
+	const struct octree_node *old = &from_tree->nodes[from];
+	*n = *old;
+	if (!n->inner) {
+		bool is_short = n->count <= OCTREE_SHORT;
+		memcpy(is_short ? n->ids : to_tree->refs + to_tree->ref_count, from_tree->refs + old->first, n->count * sizeof *n->ids);
+		if (!is_short) {
+			n->first = to_tree->ref_count;
+			to_tree->ref_count += n->count;
+		}
 		return;
 	}
-	uint32_t child = n->child;
 	n->child = to_tree->node_count;
-	n->first = n->count = 0;
+	n->count = 0;
 	to_tree->node_count += 8;
 	for (uint32_t c = 0; c < 8; c++)
-		lay_out(to_tree, n->child + c, from_tree, child + c);
+		lay_out(to_tree, n->child + c, from_tree, old->child + c);
 }
 
 /* Give node n the nodes across its faces: a sibling, or what lies across the parent's face, or its child there. */
@@ -199,13 +205,13 @@ static void link_node(struct octree *o, uint32_t n, const uint32_t *across)
 	struct octree_node *node = &o->nodes[n];
 	for (int f = 0; f < 6; f++)
 		node->link[f] = across[f];
-	for (uint32_t c = 0; node->child && c < 8; c++) {
+	for (uint32_t c = 0; node->inner && c < 8; c++) {
 		uint32_t next[6];
 		for (uint32_t f = 0; f < 6; f++) {
 			uint32_t bit = 1u << f / 2, upper = f & 1;
 			if ((c & bit ? 1u : 0u) != upper)
 				next[f] = node->child + (c ^ bit);
-			else if (across[f] != NO_NODE && o->nodes[across[f]].child)
+			else if (across[f] != NO_NODE && o->nodes[across[f]].inner)
 				next[f] = o->nodes[across[f]].child + (c ^ bit);
 			else
 				next[f] = across[f];
@@ -214,19 +220,16 @@ static void link_node(struct octree *o, uint32_t n, const uint32_t *across)
 	}
 }
 
-/* Pack the lists of all leaves, and sum up. */
-static void pack_leaves(struct accel *a, struct octree *o)
+static void sum_up(struct accel *a, const struct octree *o)
 {
-	uint32_t block = 0;
+	a->nodes = o->node_count;
 	for (uint32_t i = 0; i < o->node_count; i++) {
-		struct octree_node *n = &o->nodes[i];
-		if (n->child)
+		const struct octree_node *n = &o->nodes[i];
+		if (n->inner)
 			continue;
-		n->block = block;
-		block_fill(&o->blocks[block], &n->edge, a->primitives->all, o->refs + n->first, n->count, o->center);
-		block += block_count(n->count);
 		a->leaves++;
 		a->empty_leaves += n->count == 0;
+		a->references += n->count;
 		a->depth = n->depth > a->depth ? n->depth : a->depth;
 	}
 }
@@ -245,7 +248,7 @@ static int make_start(struct accel *a, struct octree *o, struct err *e)
 		const int32_t at[3] = { (int32_t)((i & low) << shift), (int32_t)((i >> o->start_depth & low) << shift),
 			                (int32_t)((i >> 2 * o->start_depth) << shift) };
 		uint32_t n = 0;
-		while (o->nodes[n].child && o->nodes[n].depth < o->start_depth)
+		while (o->nodes[n].inner && o->nodes[n].depth < o->start_depth)
 			n = octree_child_toward(&o->nodes[n], at);
 		o->start[i] = n;
 	}
@@ -254,29 +257,25 @@ static int make_start(struct accel *a, struct octree *o, struct err *e)
 
 static int finish(struct accel *a, const struct octree_builder *b, struct err *e)
 {
-	size_t refs = 0, blocks = 0;
+	size_t refs = 0;
 	for (uint32_t n = 0; n < b->tree.node_count; n++)
-		if (!b->tree.nodes[n].child) {
+		if (!b->tree.nodes[n].inner && b->tree.nodes[n].count > OCTREE_SHORT)
 			refs += b->tree.nodes[n].count;
-			blocks += block_count(b->tree.nodes[n].count);
-		}
 	struct octree *o = NEW(&a->mem, struct octree, 1);
 	if (!o)
 		return err_memory(e, "octree");
 	*o = b->tree;
 	o->nodes = NEW(&a->mem, struct octree_node, b->tree.node_count);
 	o->refs = NEW(&a->mem, uint32_t, refs);
-	o->blocks = NEW(&a->mem, struct block, blocks);
-	if (!o->nodes || !o->refs || !o->blocks)
+	o->screens = screens_make(&a->mem, a->primitives, o->center);
+	if (!o->nodes || !o->refs || !o->screens)
 		return err_memory(e, "octree");
 	o->node_count = 1;
 	o->ref_count = 0;
 	lay_out(o, 0, &b->tree, 0);
 	link_node(o, 0, (const uint32_t[6]){ NO_NODE, NO_NODE, NO_NODE, NO_NODE, NO_NODE, NO_NODE });
 	a->impl = o;
-	a->nodes = o->node_count;
-	a->references = refs;
-	pack_leaves(a, o);
+	sum_up(a, o);
 	return make_start(a, o, e);
 }
 

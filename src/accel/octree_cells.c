@@ -5,19 +5,19 @@ static int visit(const struct accel *a, uint32_t n, cell_fn *fn, void *ctx)
 {
 	const struct octree *o = a->impl;
 	const struct octree_node *node = &o->nodes[n];
-	struct cell c = { .bounds = octree_bounds(&a->root, o, node), .depth = node->depth, .leaf = !node->child };
+	struct cell c = { .bounds = octree_bounds(&a->root, o, node), .depth = node->depth, .leaf = !node->inner };
 	c.area = box_area(&c.bounds);
 	if (c.leaf) {
-		c.ids = o->refs + node->first;
+		c.ids = octree_list(o, node);
 		c.count = node->count;
 		for (int f = 0; f < 6; f++) {
 			const struct octree_node *across = node->link[f] == NO_NODE ? NULL : &o->nodes[node->link[f]];
-			if (across && !across->child)
+			if (across && !across->inner)
 				c.steps[f] = node->depth - across->depth;
 		}
 	}
 	int status = fn(ctx, &c);
-	for (uint32_t i = 0; status == 0 && node->child && i < 8; i++)
+	for (uint32_t i = 0; status == 0 && node->inner && i < 8; i++)
 		status = visit(a, node->child + i, fn, ctx);
 	return status;
 }
@@ -36,7 +36,7 @@ static bool link_holds(const struct octree *o, const struct octree_node *n, int 
 	if (at[axis] < 0 || at[axis] >= OCTREE_CELLS)
 		return n->link[f] == NO_NODE;
 	uint32_t m = 0;
-	while (o->nodes[m].child && o->nodes[m].depth < n->depth)
+	while (o->nodes[m].inner && o->nodes[m].depth < n->depth)
 		m = octree_child_toward(&o->nodes[m], at);
 	return n->link[f] == m;
 }
@@ -47,7 +47,7 @@ static bool list_holds(const struct accel *a, const struct octree_node *n)
 	struct box b = octree_bounds(&a->root, o, n);
 	uint32_t found = 0;
 	for (uint32_t id = 0; id < a->primitives->count; id++) {
-		bool listed = found < n->count && o->refs[n->first + found] == id;
+		bool listed = found < n->count && octree_list(o, n)[found] == id;
 		if (!listed && primitive_touches(&a->primitives->all[id], &b))
 			return false;
 		found += listed;
@@ -58,7 +58,7 @@ static bool list_holds(const struct accel *a, const struct octree_node *n)
 static bool is_balanced(const struct octree *o, const struct octree_node *n)
 {
 	for (int f = 0; f < 6; f++)
-		if (n->link[f] != NO_NODE && !o->nodes[n->link[f]].child && n->depth > o->nodes[n->link[f]].depth + 1)
+		if (n->link[f] != NO_NODE && !o->nodes[n->link[f]].inner && n->depth > o->nodes[n->link[f]].depth + 1)
 			return false;
 	return true;
 }
@@ -68,9 +68,9 @@ int octree_check(const struct accel *a, struct err *e)
 	const struct octree *o = a->impl;
 	for (uint32_t i = 0; i < o->node_count; i++) {
 		const struct octree_node *n = &o->nodes[i];
-		if (n->child)
+		if (n->inner)
 			continue;
-		if (octree_wants_split(a->primitives, &a->root, o, n, o->refs + n->first))
+		if (octree_wants_split(a->primitives, &a->root, o, n, octree_list(o, n)))
 			return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "octree: leaf %u should have been split", i);
 		for (int f = 0; f < 6; f++)
 			if (!link_holds(o, n, f))

@@ -8,13 +8,10 @@
 static inline bool triangle_hit(const struct triangle *s, const struct ray *r, double *t)
 {
 	struct vec e1 = vec_sub(s->v[1], s->v[0]), e2 = vec_sub(s->v[2], s->v[0]);
-	struct vec p = vec_cross(r->d, e2), w = vec_sub(r->o, s->v[0]);
-	double det = vec_dot(e1, p), u = vec_dot(w, p);
-	if (det > 0 ? u < 0 || u > det : u > 0 || u < det)
-		return false;
-	struct vec q = vec_cross(w, e1);
-	double v = vec_dot(r->d, q);
-	if (det > 0 ? v < 0 || u + v > det : v > 0 || u + v < det || det == 0)
+	struct vec p = vec_cross(r->d, e2), w = vec_sub(r->o, s->v[0]), q = vec_cross(w, e1);
+	double det = vec_dot(e1, p), sign = det < 0 ? -1 : 1, size = det * sign, u = vec_dot(w, p) * sign, v = vec_dot(r->d, q) * sign;
+	/* One branch: which side is hit, and which edge is missed, no processor can guess. */
+	if ((u < 0) | (v < 0) | (u + v > size) | (size == 0))
 		return false;
 	*t = vec_dot(e2, q) / det;
 	return true;

@@ -131,3 +131,9 @@ struct ray ray_source_draw(const struct ray_source *s, uint64_t index)
 	r.d = draw_direction(&d, n);
 	return r;
 }
+
+void ray_source_draw_many(const struct ray_source *s, uint64_t first, size_t n, struct ray *rays)
+{
+	for (size_t k = 0; k < n; k++)
+		rays[k] = ray_source_draw(s, first + k);
+}

@@ -24,4 +24,7 @@ void ray_source_close(struct ray_source *s);
  * about the normal there (Santalo 1976; Aronov et al. 2002, section 3). */
 struct ray ray_source_draw(const struct ray_source *s, uint64_t index);
 
+/* Rays first .. first + n - 1 into rays[n]. */
+void ray_source_draw_many(const struct ray_source *s, uint64_t first, size_t n, struct ray *rays);
+
 #endif

@@ -2,13 +2,10 @@
 
 #include "base/par.h"
 #include "trace/rays.h"
+#include "trace/sort.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
-
-/* Rays drawn, sorted and shot together; and the cells a side, as a power of two, of the grid they are sorted by. */
-enum { BLOCK = 65536, SORT_LEVELS = 5, SORT_CELLS = 1 << 3 * SORT_LEVELS };
 
 /* What a block of rays sums up: counts, their squares, and leaves times tests. Integers: the order does not matter. */
 struct block {
@@ -36,42 +33,13 @@ static void add_ray(struct block *b, const struct tally *n)
 	b->leaves_tests += n->leaves * n->tests;
 }
 
-/* Number of the grid cell that holds p, along a Z-order curve (Morton 1966). */
-static uint32_t sort_cell(const struct box *root, struct vec p)
-{
-	uint32_t cell = 0;
-	for (int i = 0; i < 3; i++) {
-		double x = (p.a[i] - root->lo.a[i]) / (root->hi.a[i] - root->lo.a[i]) * (1 << SORT_LEVELS);
-		uint32_t at = x < 0 ? 0 : x >= (1 << SORT_LEVELS) ? (1 << SORT_LEVELS) - 1 : (uint32_t)x;
-		for (int bit = 0; bit < SORT_LEVELS; bit++)
-			cell |= (at >> bit & 1) << (3 * bit + i);
-	}
-	return cell;
-}
-
 /* What one block needs. */
 struct work {
-	struct ray drawn[BLOCK], sorted[BLOCK];
-	uint32_t cell[BLOCK], first[SORT_CELLS + 1];
-	struct hit hit[BLOCK];
-	struct tally tally[BLOCK];
+	struct ray drawn[RAYS_BLOCK], sorted[RAYS_BLOCK];
+	struct sorter sorter;
+	struct hit hit[RAYS_BLOCK];
+	struct tally tally[RAYS_BLOCK];
 };
-
-/* Draw n rays from number 'first' on and bring those that start near each other together: they meet the same cells, which are then
- * still in the cache. The counts do not depend on the order. */
-static void draw_sorted(struct work *w, const struct ray_source *s, uint64_t first, size_t n)
-{
-	memset(w->first, 0, sizeof w->first);
-	for (size_t i = 0; i < n; i++) {
-		w->drawn[i] = ray_source_draw(s, first + i);
-		w->cell[i] = sort_cell(&s->accel->root, w->drawn[i].o);
-		w->first[w->cell[i] + 1]++;
-	}
-	for (int c = 0; c < SORT_CELLS; c++)
-		w->first[c + 1] += w->first[c];
-	for (size_t i = 0; i < n; i++)
-		w->sorted[w->first[w->cell[i]]++] = w->drawn[i];
-}
 
 static void shoot_block(void *ctx, size_t i)
 {
@@ -85,9 +53,10 @@ static void shoot_block(void *ctx, size_t i)
 		atomic_store(&run->failed, true);
 		return;
 	}
-	uint64_t first = (uint64_t)i * BLOCK;
-	size_t n = first + BLOCK < run->count ? BLOCK : (size_t)(run->count - first);
-	draw_sorted(w, &run->source, first, n);
+	uint64_t first = (uint64_t)i * RAYS_BLOCK;
+	size_t n = first + RAYS_BLOCK < run->count ? RAYS_BLOCK : (size_t)(run->count - first);
+	ray_source_draw_many(&run->source, first, n, w->drawn);
+	rays_sort(w->sorted, &w->sorter, w->drawn, n, &a->root); /* the counts do not depend on the order */
 	a->ops->shoot_many(a, w->sorted, n, w->hit, w->tally);
 	for (size_t k = 0; k < n; k++)
 		add_ray(&b, &w->tally[k]);
@@ -133,7 +102,7 @@ int shoot_rays(struct actual *out, const struct accel *a, enum workload w, uint6
                double beta, int threads, const atomic_int *stop, struct err *e)
 {
 	struct run run = { .count = count, .stop = stop };
-	size_t blocks = (size_t)((count + BLOCK - 1) / BLOCK);
+	size_t blocks = (size_t)((count + RAYS_BLOCK - 1) / RAYS_BLOCK);
 	*out = (struct actual){ .rays = count };
 	if (ray_source_open(&run.source, a, w, seed, e) != 0)
 		return -1;
