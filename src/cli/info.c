@@ -1,14 +1,13 @@
 /* raycost info SCENE */
 #include "batch/load.h"
-#include "cli/cli.h"
+#include "cli/reading.h"
 #include "scene/tessellate.h"
 
 #include <string.h>
 
-static const char help[] = "usage: raycost info SCENE.nff[.gz] [--strict]\n\n"
-                           "Tell what is in a scene. --strict refuses what a tolerant reader skips and counts.\n";
+static const char help[] = "usage: raycost info SCENE [options]\n\nTell what is in a scene.\n\n" READING_HELP;
 
-static void print_scene(struct text *out, const char *path, const struct scene *s, const struct nff_skipped *skipped)
+static void print_scene(struct text *out, const char *path, const struct scene *s, const struct read_summary *summary)
 {
 	static const char *const kinds[] = { "spheres", "cones", "polygons", "patches" };
 	size_t count[4] = { 0 };
@@ -21,8 +20,7 @@ static void print_scene(struct text *out, const char *path, const struct scene *
 	if (s->view.given)
 		text_print(out, "  %-12sfrom (%g, %g, %g) to (%g, %g, %g), %g degrees, %d x %d\n", "view", s->view.from.x, s->view.from.y,
 		           s->view.from.z, s->view.at.x, s->view.at.y, s->view.at.z, s->view.angle, s->view.width, s->view.height);
-	if (skipped->records)
-		text_print(out, "  %-12s%u records, the first in line %u\n", "skipped", skipped->records, skipped->first_line);
+	reading_print(out, summary);
 }
 
 static void print_primitives(struct text *out, const struct primitives *p)
@@ -38,22 +36,24 @@ static void print_primitives(struct text *out, const struct primitives *p)
 static int run(struct cli *cli, int count, char **words, struct err *e)
 {
 	const char *path = NULL;
-	bool strict = false;
-	for (int i = 0; i < count; i++) {
-		if (strcmp(words[i], "--strict") == 0)
-			strict = true;
-		else if (*words[i] == '-' || path)
+	struct reading reading = { 0 };
+	for (int i = 0, status; i < count; i++) {
+		if (reading_parse(&reading, "info", count, words, &i, &status, e)) {
+			if (status != 0)
+				return status;
+		} else if (*words[i] == '-' || path) {
 			return cli_usage(e, "info", "'%s' is not understood", words[i]);
-		else
+		} else {
 			path = words[i];
+		}
 	}
 	if (!path)
 		return cli_usage(e, "info", "no scene given");
 	struct scene s = { 0 };
 	struct primitives p = { 0 };
-	struct nff_skipped skipped;
-	if (load_file(&s, path, strict, &skipped, e) == 0) {
-		print_scene(&cli->out, path, &s, &skipped);
+	struct read_summary summary;
+	if (load_file(&s, path, &reading.options, &summary, e) == 0) {
+		print_scene(&cli->out, path, &s, &summary);
 		if (primitives_make(&p, &s, CURVES_KEEP, SPD_RESOLUTION, path, e) == 0)
 			print_primitives(&cli->out, &p);
 	}

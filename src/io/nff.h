@@ -21,4 +21,7 @@ struct nff_skipped {
 int nff_read(struct scene *s, const char *name, const char *text, size_t n, bool strict, struct nff_skipped *skipped,
              struct err *e);
 
+/* Whether the text starts with an NFF keyword. */
+bool nff_is(const char *text, size_t n);
+
 #endif
