@@ -49,8 +49,7 @@ static void write_material(const struct writer *w, const struct material *m)
 	write_line(w, "f ", x, 8);
 }
 
-/* Copy a polygon's corners to 'kept' without those nearer than 1e-6 to the next one, as SPD does; returns how many are left. */
-static size_t clean_corners(const struct vec *corners, size_t n, struct vec *kept)
+size_t nff_clean_corners(const struct vec *corners, size_t n, struct vec *kept)
 {
 	memcpy(kept, corners, n * sizeof *kept);
 	for (size_t i = 0; i < n;) {
@@ -70,7 +69,7 @@ static int write_polygon(const struct writer *w, const struct vec *corners, size
 	if (!kept)
 		return -1;
 	if (w->digits <= 6)
-		n = clean_corners(corners, n, kept);
+		n = nff_clean_corners(corners, n, kept);
 	else
 		memcpy(kept, corners, n * sizeof *kept);
 	if (n >= 3)
