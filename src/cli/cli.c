@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-extern const struct cli_command cli_run, cli_render, cli_report, cli_spd, cli_info, cli_columns, cli_convert;
+extern const struct cli_command cli_run, cli_render, cli_report, cli_spd, cli_info, cli_columns, cli_convert, cli_view;
 
-const struct cli_command *const cli_commands[] = { &cli_run, &cli_render, &cli_report, &cli_spd, &cli_info, &cli_convert, &cli_columns, NULL };
+const struct cli_command *const cli_commands[] = { &cli_run, &cli_render, &cli_report, &cli_spd, &cli_info, &cli_view, &cli_convert, &cli_columns, NULL };
 
 int cli_usage(struct err *e, const char *command, const char *fmt, ...)
 {

@@ -38,7 +38,7 @@ static void write_camera(const struct writer *w, const struct view *v)
 static void write_lights(const struct writer *w)
 {
 	const struct scene *s = w->scene;
-	double strength = 1 / sqrt((double)s->light_count);
+	double strength = 0.5 / sqrt((double)s->light_count);
 	for (size_t i = 0; i < s->light_count; i++) {
 		const struct light *l = &s->lights[i];
 		const double color[3] = { l->color.r, l->color.g, l->color.b }, plain[3] = { strength, strength, strength };
@@ -140,7 +140,7 @@ int pov_write(const struct scene *s, const struct write_options *o, struct text 
 {
 	const struct writer w = { s, o, out };
 	int status = 0;
-	text_print(out, "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n");
+	text_print(out, "#version 3.7;\nglobal_settings { assumed_gamma srgb }\n");
 	if (s->background_given) {
 		write_vec(&w, "background { color rgb ", (const double[3]){ s->background.r, s->background.g, s->background.b });
 		text_print(out, " }\n");
