@@ -155,6 +155,8 @@ static int receive_scene(struct importer *i, struct scene *s)
 	head.message[sizeof head.message - 1] = '\0';
 	if (head.magic != MESH_MAGIC || head.triangles > triangles_most || head.materials > materials_most)
 		return refuse(i, "the importer answered nonsense, or more than %llu triangles", (unsigned long long)triangles_most);
+	if (strstr(head.message, "bad_alloc"))
+		return refuse(i, "reading it takes more than %zu MiB", i->limits->memory >> 20);
 	if (*head.message)
 		return refuse(i, "%s", head.message);
 	if (head.triangles == 0)

@@ -218,9 +218,17 @@ static void send_node(struct sender *s, const struct aiNode *node, const struct 
 		send_node(s, node->mChildren[i], &m, depth + 1);
 }
 
+/* The decimal number that an author most likely wrote: 0.8, not 0.800000011920929. */
+static double written(float x)
+{
+	char text[32];
+	snprintf(text, sizeof text, "%.7g", (double)x);
+	return strtod(text, NULL);
+}
+
 static double largest(const struct aiColor4D *c)
 {
-	return fmax((double)c->r, fmax((double)c->g, (double)c->b));
+	return written(fmaxf(c->r, fmaxf(c->g, c->b)));
 }
 
 static void send_material(struct sender *s, const struct aiMaterial *from)
@@ -234,8 +242,8 @@ static void send_material(struct sender *s, const struct aiMaterial *from)
 	aiGetMaterialFloatArray(from, AI_MATKEY_SHININESS, &shine, &one);
 	aiGetMaterialFloatArray(from, AI_MATKEY_OPACITY, &opacity, &one);
 	aiGetMaterialFloatArray(from, AI_MATKEY_REFRACTI, &ior, &one);
-	const struct mesh_material m = { (double)diffuse.r, (double)diffuse.g, (double)diffuse.b, largest(&specular), (double)shine,
-		                         1 - (double)opacity, (double)ior };
+	const struct mesh_material m = { written(diffuse.r), written(diffuse.g), written(diffuse.b), largest(&specular), written(shine),
+		                         written(1 - opacity), written(ior) };
 	s->failed |= !send_all(s->fd, &m, sizeof m);
 }
 
