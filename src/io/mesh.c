@@ -221,7 +221,7 @@ int mesh_read_within(struct scene *s, const char *name, const char *text, size_t
 int mesh_read(struct scene *s, const char *name, const char *text, size_t n, const struct read_options *o,
               struct read_summary *summary, struct err *e)
 {
-	struct mesh_limits limits = { .memory = ((size_t)2 << 30) + 100 * n, .seconds = 60 + (double)(n >> 20) };
+	struct mesh_limits limits = { .memory = ((size_t)2 << 30) + 100 * n, .seconds = 10 + 2 * (double)(n >> 20) };
 	(void)summary;
 	return mesh_read_within(s, name, text, n, o, &limits, e);
 }

@@ -120,7 +120,7 @@ static int write_mesh(const struct writer *w, struct facets *f)
 	text_print(w->out, "\tface_indices { %zu", f->count);
 	for (size_t i = 0; i < n; i += 3)
 		text_print(w->out, "%s<%u, %u, %u>", i % 24 ? ", " : ",\n\t\t", index[i], index[i + 1], index[i + 2]);
-	text_print(w->out, " }\n\t");
+	text_print(w->out, " }\n");
 	write_material_name(w, f->all[0].material);
 	return 0;
 }
