@@ -39,7 +39,7 @@ static const char *name_scene(struct job_reader *r)
 	if (s->path) {
 		const char *slash = strrchr(s->path, '/'), *base = slash ? slash + 1 : s->path;
 		n = (size_t)snprintf(name, sizeof name, "%.*s", (int)(strcspn(base, ".") ? strcspn(base, ".") : strlen(base)), base);
-		if (s->read.resolution && s->curves == CURVES_KEEP)
+		if (s->read.resolution && s->curves == CURVES_KEEP && n < sizeof name)
 			n += (size_t)snprintf(name + n, sizeof name - n, "-resolution-%lld", (long long)s->read.resolution);
 		if (s->read.planes != PLANES_CLIP && n < sizeof name)
 			n += (size_t)snprintf(name + n, sizeof name - n, "-planes-%s", read_planes_words[s->read.planes]);
