@@ -189,7 +189,7 @@ static void text_of_the_writers(void **state)
 		struct err e = { 0 };
 		struct scene s = { 0 };
 		struct text text = { 0 };
-		struct write_options o = { .digits = DIGITS_EXACT, .resolution = 1, .companion = "mixed.mtl" };
+		struct write_options o = { .digits = 12, .resolution = 1, .companion = "mixed.mtl" };
 		fill(&s);
 		if (i == 3)
 			assert_int_equal(format_of_path("mixed.obj")->write_companion(&s, &o, &text, &e), 0);

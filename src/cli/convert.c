@@ -1,7 +1,6 @@
 /* raycost convert IN OUT */
 #include "batch/load.h"
 #include "cli/reading.h"
-#include "scene/tessellate.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -38,8 +37,7 @@ static int run(struct cli *cli, int count, char **words, struct err *e)
 	}
 	if (n < 2)
 		return cli_usage(e, "convert", "IN and OUT are needed");
-	int resolution = reading.options.resolution ? (int)reading.options.resolution : SPD_RESOLUTION;
-	const struct write_options options = { .digits = (int)digits, .resolution = resolution };
+	const struct write_options options = { .digits = (int)digits, .resolution = reading_resolution(&reading) };
 	const struct format *f = format_of_path(paths[1]);
 	if (f && f->write) {
 		if (load_file(&s, paths[0], &reading.options, &summary, e) == 0 && format_write(&s, paths[1], &options, e) == 0)

@@ -2,7 +2,6 @@
 #include "batch/load.h"
 #include "cli/reading.h"
 #include "scene/duplicates.h"
-#include "scene/tessellate.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -98,13 +97,12 @@ static int run(struct cli *cli, int count, char **words, struct err *e)
 	}
 	if (!path)
 		return cli_usage(e, "info", "no scene given");
-	int resolution = reading.options.resolution ? (int)reading.options.resolution : SPD_RESOLUTION;
 	struct scene s = { 0 };
 	struct primitives p = { 0 };
 	struct read_summary summary;
 	if (load_file(&s, path, &reading.options, &summary, e) == 0) {
 		print_scene(&cli->out, path, &s, &summary);
-		if (primitives_make(&p, &s, CURVES_KEEP, resolution, path, e) == 0)
+		if (primitives_make(&p, &s, CURVES_KEEP, reading_resolution(&reading), path, e) == 0)
 			print_primitives(&cli->out, &p);
 	}
 	scene_free(&s);

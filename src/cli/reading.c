@@ -1,5 +1,7 @@
 #include "cli/reading.h"
 
+#include "scene/tessellate.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -31,6 +33,11 @@ bool reading_parse(struct reading *r, const char *command, int count, char **wor
 	if (folder || k->type == KEY_TEXT ? !add_folder(r, value) : !cli_set_key(k, value, &r->options))
 		*status = cli_usage(e, command, "%s %s: not a value it can have", word, value);
 	return true;
+}
+
+int reading_resolution(const struct reading *r)
+{
+	return r->options.resolution ? (int)r->options.resolution : SPD_RESOLUTION;
 }
 
 void reading_print(struct text *out, const struct read_summary *s)

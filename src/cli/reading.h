@@ -20,6 +20,9 @@ struct reading {
 /* Whether words[*i] is an option of reading. Takes its value too, moving *i on; *status is 0, or the fault's with *e filled. */
 bool reading_parse(struct reading *r, const char *command, int count, char **words, int *i, int *status, struct err *e);
 
+/* R of curves that become triangles: what was asked for, or 3. */
+int reading_resolution(const struct reading *r);
+
 /* One line on what was skipped, or nothing. */
 void reading_print(struct text *out, const struct read_summary *s);
 

@@ -4,7 +4,6 @@
 #include "batch/load.h"
 #include "cli/reading.h"
 #include "io/png.h"
-#include "scene/tessellate.h"
 #include "trace/render.h"
 
 #include <inttypes.h>
@@ -133,7 +132,7 @@ static int run(struct cli *cli, int count, char **words, struct err *e)
 		return status;
 	render_resolve(&a.render);
 	if (load_file(&scene, a.scene, &a.reading.options, &summary, e) == 0 &&
-	    primitives_make(&primitives, &scene, CURVES_KEEP, SPD_RESOLUTION, a.scene, e) == 0)
+	    primitives_make(&primitives, &scene, CURVES_KEEP, reading_resolution(&a.reading), a.scene, e) == 0)
 		render(&a, cli, &scene, &primitives, e);
 	primitives_free(&primitives);
 	scene_free(&scene);

@@ -3,7 +3,6 @@
 #include "batch/load.h"
 #include "cli/reading.h"
 #include "io/png.h"
-#include "scene/tessellate.h"
 #include "trace/camera.h"
 #include "trace/render.h"
 
@@ -88,9 +87,8 @@ static int run(struct cli *cli, int count, char **words, struct err *e)
 	int status = parse(&a, count, words, e);
 	if (status != 0)
 		return status;
-	int resolution = a.reading.options.resolution ? (int)a.reading.options.resolution : SPD_RESOLUTION;
 	if (load_file(&scene, a.scene, &a.reading.options, &summary, e) == 0 &&
-	    primitives_make(&primitives, &scene, CURVES_KEEP, resolution, a.scene, e) == 0) {
+	    primitives_make(&primitives, &scene, CURVES_KEEP, reading_resolution(&a.reading), a.scene, e) == 0) {
 		primitives.normals = NULL;
 		set_flat(&flat, &scene, &primitives, &a.render);
 		if (scene_complete(&flat, a.scene, e) == 0)

@@ -44,17 +44,15 @@ static bool is_glb(const char *text, size_t n)
 	return n >= 4 && memcmp(text, "glTF", 4) == 0;
 }
 
-static const char all[] = "everything but names", bare[] = "triangles with normals; curves are tessellated, the rest is lost";
-
 const struct format formats[] = {
-	{ .name = "NFF", .endings = "nff aff", .keeps = all, .read = read_nff, .write = write_nff, .is = nff_is },
-	{ .name = "POV-Ray", .endings = "pov inc", .keeps = "everything; cones stay cones, polygons become mesh2", .write = pov_write },
-	{ .name = "OBJ", .endings = "obj", .keeps = "triangles with normals and materials (in a .mtl); curves are tessellated",
-	  .read = mesh_read, .write = obj_write, .write_companion = obj_write_materials, .companion_ending = "mtl" },
-	{ .name = "PLY", .endings = "ply", .keeps = bare, .read = mesh_read, .write = ply_write, .is = is_ply },
-	{ .name = "glTF", .endings = "gltf glb", .keeps = "", .read = mesh_read, .is = is_glb },
+	{ .name = "NFF", .endings = "nff aff", .read = read_nff, .write = write_nff, .is = nff_is },
+	{ .name = "POV-Ray", .endings = "pov inc", .write = pov_write },
+	{ .name = "OBJ", .endings = "obj", .read = mesh_read, .write = obj_write, .write_companion = obj_write_materials,
+	  .companion_ending = "mtl" },
+	{ .name = "PLY", .endings = "ply", .read = mesh_read, .write = ply_write, .is = is_ply },
+	{ .name = "glTF", .endings = "gltf glb", .read = mesh_read, .is = is_glb },
 	{ .name = "mesh", .endings = "stl 3ds 3mf ac amf ase b3d dae dxf fbx hmp lwo lxo md2 md3 ms3d off q3o sib smd x x3d xgl",
-	  .keeps = "", .read = mesh_read },
+	  .read = mesh_read },
 	{ 0 }
 };
 

@@ -18,7 +18,6 @@ enum { DIGITS_SPD = 6, DIGITS_EXACT = 17 };
 /* One format. Functions that a format lacks are NULL. */
 struct format {
 	const char *name, *endings; /* endings without dot, blanks between */
-	const char *keeps;          /* what of a scene the format holds, one line */
 
 	/* Fill an empty scene from n bytes of text[n + 1], the last of them NUL. name: the file's path, for messages and to find the
 	 * files it names. 0, or -1 and *e with "name:line: message". */

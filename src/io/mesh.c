@@ -24,7 +24,7 @@ enum { LIMITS_MEMORY = 0 };
 enum { LIMITS_MEMORY = 1 };
 #endif
 
-static const uint64_t triangles_most = 200000000, materials_most = 1000000;
+static const uint64_t triangles_most = 20000000, materials_most = 1000000;
 
 /* The importing process as its parent sees it. */
 struct importer {
@@ -191,7 +191,7 @@ int mesh_read_within(struct scene *s, const char *name, const char *text, size_t
 {
 	struct importer i = { .name = name, .limits = limits, .deadline = clock_seconds() + limits->seconds, .err = e };
 	char path[4096];
-	int ends[2], ended;
+	int ends[2], ended = 0;
 	if (!mesh_available())
 		return refuse(&i, "this format needs Assimp: install libassimp-dev ('make deps'), then build anew");
 	if (name_for_importer(name, text, n, path, sizeof path) != 0)

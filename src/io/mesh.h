@@ -20,7 +20,8 @@ struct mesh_limits {
 };
 
 /* As a format's 'read', within limits that grow with the file: 2 GiB and 100 times its size; 10 s and 2 more each MiB. A mesh without
- * triangles, a fault, a crash or a limit met is "name: reason" with STATUS_INPUT; built without Assimp, so is every file. */
+ * triangles or with more than 20 million, a fault, a crash or a limit met is "name: reason" with STATUS_INPUT; built without Assimp,
+ * so is every file. */
 int mesh_read(struct scene *s, const char *name, const char *text, size_t n, const struct read_options *o,
               struct read_summary *summary, struct err *e);
 

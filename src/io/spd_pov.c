@@ -45,8 +45,8 @@ static void print_color(const struct writer *w, const char *before, double r, do
 static void write_background(const struct writer *w, const struct color *c)
 {
 	if (w->version == 1) {
-		text_print(w->out, "// POV-Ray 1.0 scene file\n// background color:\nobject {\n    sphere { <0 0 0> 9000  texture { ambient 1 diffuse 0");
-		print_color(w, " ", c->r, c->g, c->b);
+		text_print(w->out, "// POV-Ray 1.0 scene file\n// background color:\nobject {\n    sphere { <0 0 0> 9000  texture {");
+		print_color(w, " ambient 1 diffuse 0 ", c->r, c->g, c->b);
 		text_print(w->out, " } }\n} // object - background\n\n");
 	} else {
 		text_print(w->out, "// POV-Ray %d scene file\nbackground {", w->version);
