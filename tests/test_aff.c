@@ -193,6 +193,7 @@ static void included_files(void **state)
 	write_file(other, "deep.aff", "s 2 0 0 1\n");
 	write_file(folder, "loop.aff", "s 0 0 0 1\ni loop.aff\n");
 	write_file(folder, "open.aff", "xs 1 1 1 0 0 0 0 0 0 0 {\n");
+	write_file(folder, "close.aff", "} xs 1 1 1 0 0 0 0 0 0 0 {\n");
 	write_file(folder, "bad.aff", "\ns 1 2\n");
 	static const struct {
 		const char *text, *why; /* why: behind the folder; NULL: it is read */
@@ -200,7 +201,8 @@ static void included_files(void **state)
 		{ "i part.aff\ns 3 0 0 1\n", NULL },
 		{ "xs 1 1 1 0 0 0 0 1 0 0 { i part.aff }\ns 3 0 0 1\n", NULL },
 		{ "i loop.aff", "/loop.aff:2: files include files more than 16 deep, or 1000 times in all" },
-		{ "i open.aff", "/main.aff:1: open.aff has more '{' than '}', or fewer" },
+		{ "i open.aff", "/main.aff:1: open.aff has more '{' than '}'" },
+		{ "xs 1 1 1 0 0 0 0 0 0 0 { i close.aff }", "/close.aff:1: '}' without '{'" },
 		{ "i bad.aff", "/bad.aff:3: the file ends within a sphere" },
 		{ "i /etc/passwd", "/main.aff:1: /etc/passwd: no such file there, nor in the include folders" },
 		{ "i ../../etc/passwd", "/main.aff:1: ../../etc/passwd: no such file there, nor in the include folders" },
@@ -219,8 +221,8 @@ static void included_files(void **state)
 				assert_vec(s.points[s.objects[k].first], k + 1 + (k < 2 ? (double)i : 0), 0, 0);
 		scene_free(&s);
 	}
-	static const char *const files[] = { "part.aff", "other/deep.aff", "loop.aff", "open.aff", "bad.aff" };
-	for (int i = 0; i < 5; i++) {
+	static const char *const files[] = { "part.aff", "other/deep.aff", "loop.aff", "open.aff", "close.aff", "bad.aff" };
+	for (int i = 0; i < 6; i++) {
 		char path[256];
 		snprintf(path, sizeof path, "%s/%s", folder, files[i]);
 		unlink(path);

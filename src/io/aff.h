@@ -13,7 +13,7 @@
  *   tpa times, then each: t and 3 times x y z nx ny nz       animated triangle: its first position
  *   m [vertices n ..] [normals n ..] [texturecoords n texture ..] triangles n ..   mesh; an index triple for each array there is
  *   xs sx sy sz rx ry rz degrees tx ty tz { .. }             scale, turn about an axis, move what is in the braces
- *   i file                               included, where include_read finds it; 16 deep and 1000 in all at the most
+ *   i file                               included, where include_read finds it; 16 deep, 1000 and 1 GiB in all at the most
  *
  * '#' and '%' start comments. Skipped and counted, or refused by a strict reader, since they say how things move or look:
  * a (animation), am (ambient light), d (detail level), k NAME {..} (key frames), and the name of x NAME {..}, whose content is read

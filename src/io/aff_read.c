@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum { DEEPEST = 16, INCLUDES_MOST = 1000 };
-static const size_t include_bytes_most = (size_t)1 << 30;
+static const size_t included_bytes_most = (size_t)1 << 30;
 
 /* A transform whose brace is open: what came before it. */
 struct open_brace {
@@ -21,7 +21,9 @@ struct open_brace {
 /* What all files of a scene share. */
 struct aff {
 	const struct read_options *options;
-	int depth, includes, braces; /* of files; of transforms, in all of them */
+	int depth, includes;
+	int braces, floor; /* open transforms in all files; those that were open where the file at hand begins */
+	size_t bytes_left;           /* that may still be included */
 	struct open_brace open[DEEPEST];
 };
 
@@ -260,7 +262,7 @@ static int read_animated_transform(struct nff_reader *r)
 static int close_transform(struct nff_reader *r)
 {
 	struct aff *a = r->dialect;
-	if (a->braces == 0)
+	if (a->braces == a->floor)
 		return nff_refuse(r, r->record, "'}' without '{'");
 	const struct open_brace *o = &a->open[--a->braces];
 	int resolution = a->options->resolution ? (int)a->options->resolution : SPD_RESOLUTION;
@@ -277,19 +279,22 @@ static int read_include(struct nff_reader *r)
 	memcpy(named, r->token, sizeof named);
 	if (a->depth == DEEPEST || a->includes++ == INCLUDES_MOST)
 		return nff_refuse(r, r->record, "files include files more than %d deep, or %d times in all", DEEPEST, INCLUDES_MOST);
-	int braces = a->braces;
-	int status = include_read(r->name, r->record, named, a->options->include, include_bytes_most, path, sizeof path, &text, r->err);
+	int braces = a->braces, floor = a->floor;
+	int status = include_read(r->name, r->record, named, a->options->include, a->bytes_left, path, sizeof path, &text, r->err);
+	a->bytes_left -= status == 0 ? text.size : 0;
 	struct nff_reader inner = *r;
 	inner.name = path;
 	inner.at = text.bytes;
 	inner.end = text.bytes + text.size;
 	inner.line = 1;
 	a->depth++;
+	a->floor = braces;
 	if (status == 0)
 		status = nff_read_records(&inner);
 	a->depth--;
+	a->floor = floor;
 	if (status == 0 && a->braces != braces)
-		status = nff_refuse(r, r->record, "%s has more '{' than '}', or fewer", named);
+		status = nff_refuse(r, r->record, "%s has more '{' than '}'", named);
 	text_free(&text);
 	return status;
 }
@@ -305,7 +310,7 @@ static const struct nff_record records[] = {
 int aff_read(struct scene *s, const char *name, const char *text, size_t n, const struct read_options *o,
              struct nff_skipped *skipped, struct err *e)
 {
-	struct aff a = { .options = o };
+	struct aff a = { .options = o, .bytes_left = included_bytes_most };
 	struct nff_reader r = { .scene = s, .name = name, .at = text, .end = text + n, .line = 1, .strict = o->strict, .percent = true,
 		                .skipped = skipped, .err = e, .more = records, .dialect = &a };
 	*skipped = (struct nff_skipped){ 0 };
