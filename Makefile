@@ -5,9 +5,10 @@ BUILD   := build/$(if $(SAN),$(subst $(comma),-,$(SAN)),plain)
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wno-psabi -Werror
 CF       = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(OPT) -g -ffp-contract=off -pthread -Isrc -I. \
            $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all) $(CFLAGS)
-LIBS    := -lyaml -lpng -lz -lm
+ASSIMP  := $(shell pkg-config --exists assimp 2>/dev/null && echo yes)
+LIBS    := $(if $(ASSIMP),-lassimp) -lyaml -lpng -lz -lm
 FLOORS  := base geom scene spd io accel cost trace batch report cli
-PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev gnuplot-nox
+PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev gnuplot-nox pkg-config libassimp-dev
 VERSION := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
 
 # Compiled a second time for processors with AVX2, chosen when the program runs.
@@ -68,6 +69,8 @@ $(BUILD)/tests/bench.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
 $(BUILD)/%.avx2.o: %.c
 	@mkdir -p $(@D)
 	$(CC) $(CF) -mavx2 -MMD -MP -c $< -o $@
+
+$(BUILD)/src/io/mesh_import.o: CFLAGS += $(if $(ASSIMP),-DHAVE_ASSIMP)
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
