@@ -48,7 +48,7 @@ static void replay_block(struct pixel *pixels, struct work *w, const struct segm
 	for (size_t i = 0; i < count; i++) {
 		struct pixel *p = &pixels[segments[i].sample];
 		p->cost += alpha * (double)w->tallies[i].leaves + beta * (double)w->tallies[i].tests;
-		p->rays += w->tallies[i].leaves > 0;
+		p->rays += w->tallies[i].leaves + w->tallies[i].inner_start > 0;
 	}
 }
 
