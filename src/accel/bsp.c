@@ -46,7 +46,9 @@ static bool choose(struct plane_builder *b, const struct plane_cell *c, int *axi
 static int build(struct accel *a, const void *opt, struct err *e)
 {
 	const struct bsp_options *o = opt;
-	return planes_build(a, o, &o->common, choose, e);
+	struct plane_options common = o->common;
+	common.boxes = 0; /* no option here */
+	return planes_build(a, o, &common, choose, e);
 }
 
 const struct accel_ops accel_bsp = {

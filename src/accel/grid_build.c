@@ -157,6 +157,7 @@ int grid_build(struct accel *a, const void *opt, struct err *e)
 	a->root = root_box(&a->primitives->bounds, (enum root_kind)o->root);
 	a->slack = 1e-9 * box_diagonal(&a->root);
 	a->mailbox = (enum mailbox_kind)o->mailbox;
+	a->impl = g;
 	choose_resolution(g, a, o);
 	double cells = (double)g->n[0] * g->n[1] * g->n[2];
 	if (cells > GRID_CELLS_MOST)

@@ -9,52 +9,35 @@ const char *const plane_root_words[] = { "cube", "box", NULL };
 const char *const plane_travel_words[] = { "recursive", "restart", NULL };
 const char *const plane_mailbox_words[] = { "none", "one", "full", NULL };
 
-/* Make room for 'more' elements of 'size' bytes behind 'count'; returns where the array is now, or NULL and *e. */
-static void *reserve(void *array, size_t count, size_t *room, size_t more, size_t size, struct err *e)
+/* Make room for 'more' elements of 'size' bytes behind 'count'. 0, or -1 and *e. */
+static int reserve(void **array, size_t count, size_t *room, size_t more, size_t size, struct err *e)
 {
 	if (*room - count >= more)
-		return array;
+		return 0;
 	size_t want = *room * 2 > count + more ? *room * 2 : count + more;
-	void *grown = want > UINT32_MAX - 16 ? NULL : realloc(array, want * size);
-	if (!grown) {
-		if (want > UINT32_MAX - 16)
-			err_at(e, STATUS_ENVIRONMENT, NULL, 0, "tree of planes: more than 2^32 nodes or references");
-		else
-			err_memory(e, "tree of planes");
-		return NULL;
-	}
+	if (want > UINT32_MAX - 16)
+		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "tree of planes: more than 2^32 nodes or references");
+	void *grown = realloc(*array, want * size);
+	if (!grown)
+		return err_memory(e, "tree of planes");
+	*array = grown;
 	*room = want;
-	return grown;
+	return 0;
 }
 
-/* Room for 'more' ids on the stack of lists; 0, or -1 and *e. The others likewise. */
-static int reserve_ids(struct plane_builder *b, size_t more, struct err *e)
-{
-	void *grown = reserve(b->ids, b->id_count, &b->id_room, more, sizeof *b->ids, e);
-	b->ids = grown ? grown : b->ids;
-	return grown ? 0 : -1;
-}
-
-static int reserve_nodes(struct plane_builder *b, size_t more, struct err *e)
-{
-	void *grown = reserve(b->tree.nodes, b->tree.node_count, &b->node_room, more, sizeof *b->tree.nodes, e);
-	b->tree.nodes = grown ? grown : b->tree.nodes;
-	return grown ? 0 : -1;
-}
-
-static int reserve_boxes(struct plane_builder *b, size_t more, struct err *e)
-{
-	void *grown = reserve(b->tree.boxes, b->tree.box_count, &b->box_room, more, sizeof *b->tree.boxes, e);
-	b->tree.boxes = grown ? grown : b->tree.boxes;
-	return grown ? 0 : -1;
-}
-
-static int reserve_refs(struct plane_builder *b, size_t more, struct err *e)
-{
-	void *grown = reserve(b->tree.refs, b->tree.ref_count, &b->ref_room, more, sizeof *b->tree.refs, e);
-	b->tree.refs = grown ? grown : b->tree.refs;
-	return grown ? 0 : -1;
-}
+/* The same for each of the builder's arrays. */
+#define RESERVE(what, array, count, room) \
+	static int reserve_##what(struct plane_builder *b, size_t more, struct err *e) \
+	{ \
+		void *grown = b->array; \
+		int status = reserve(&grown, b->count, &b->room, more, sizeof *b->array, e); \
+		b->array = grown; \
+		return status; \
+	}
+RESERVE(ids, ids, id_count, id_room)
+RESERVE(nodes, tree.nodes, tree.node_count, node_room)
+RESERVE(boxes, tree.boxes, tree.box_count, box_room)
+RESERVE(refs, tree.refs, tree.ref_count, ref_room)
 
 /* A cell on the way down: node n, its list at ids[first .. first + count). */
 struct task {
@@ -69,7 +52,8 @@ static int make_leaf(struct plane_builder *b, const struct task *t, struct err *
 	struct plane_node *n = &b->tree.nodes[t->node];
 	if (reserve_refs(b, t->count, e) != 0)
 		return -1;
-	memcpy(b->tree.refs + b->tree.ref_count, b->ids + t->first, t->count * sizeof *b->ids);
+	if (t->count > 0)
+		memcpy(b->tree.refs + b->tree.ref_count, b->ids + t->first, t->count * sizeof *b->ids);
 	n->kind = NODE_LEAF;
 	n->first = b->tree.ref_count;
 	n->count = t->count;
