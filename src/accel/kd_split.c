@@ -22,39 +22,42 @@ static bool is_better(const struct candidate *c, const struct candidate *d)
 	return c->side > d->side;
 }
 
-static void count_sides(const struct plane_builder *b, uint32_t n, double plane, uint32_t *below, uint32_t *above)
+/* Primitives entirely on either side of a plane. */
+struct sides {
+	uint32_t below, above;
+};
+
+static struct sides count_sides(const struct plane_builder *b, int axis, uint32_t n, double plane)
 {
-	double low = plane - b->slack, high = plane + b->slack;
-	uint32_t under = 0, over = 0;
+	const double *begin = b->low[axis], *end = b->high[axis], low = plane - b->slack, high = plane + b->slack;
+	uint64_t below = 0, above = 0; /* as wide as what is compared, so that the loop becomes vectors */
 	for (uint32_t i = 0; i < n; i++) {
-		under += b->high[i] < low;
-		over += b->low[i] > high;
+		below += end[i] < low;
+		above += begin[i] > high;
 	}
-	*below = under;
-	*above = over;
+	return (struct sides){ (uint32_t)below, (uint32_t)above };
 }
 
 static void search_axis(const struct plane_builder *b, const struct plane_cell *c, int axis, struct candidate *best)
 {
 	double low = c->bounds.lo.a[axis], high = c->bounds.hi.a[axis];
 	const double least = low + b->margin, most = high - b->margin, side = high - low;
-	for (uint32_t i = 0; i < c->count; i++) {
-		b->low[i] = b->bounds[c->ids[i]].lo.a[axis];
-		b->high[i] = b->bounds[c->ids[i]].hi.a[axis];
-	}
+	struct sides at_low = { 0, c->count }, at_high = { c->count, 0 };
 	for (int i = 0; i < SEARCH; i++) {
 		struct candidate k = { .axis = axis, .plane = low + (high - low) / 2, .side = side };
-		uint32_t below, above;
 		if (!(k.plane >= least && k.plane <= most))
 			break;
-		count_sides(b, c->count, k.plane, &below, &above);
-		k.longer = c->count - (below < above ? below : above);
-		k.shared = c->count - below - above;
-		if (below + above > 0 && below < c->count && above < c->count && is_better(&k, best))
+		struct sides s = count_sides(b, axis, c->count, k.plane);
+		k.longer = c->count - (s.below < s.above ? s.below : s.above);
+		k.shared = c->count - s.below - s.above;
+		if (s.below + s.above > 0 && s.below < c->count && s.above < c->count && is_better(&k, best))
 			*best = k;
-		if (below == above)
+		if (s.below == s.above)
 			break;
-		*(below > above ? &high : &low) = k.plane;
+		*(s.below > s.above ? &high : &low) = k.plane;
+		*(s.below > s.above ? &at_high : &at_low) = s;
+		if (at_low.below == at_high.below && at_low.above == at_high.above)
+			break; /* nothing begins or ends between them */
 	}
 }
 
@@ -64,6 +67,11 @@ static bool choose_balance(struct plane_builder *b, const struct plane_cell *c, 
 	struct candidate best = { .longer = UINT32_MAX };
 	if (c->count <= (uint32_t)o->common.max_objects)
 		return false;
+	for (uint32_t i = 0; i < c->count; i++)
+		for (int k = 0; k < 3; k++) {
+			b->low[k][i] = b->bounds[c->ids[i]].lo.a[k];
+			b->high[k][i] = b->bounds[c->ids[i]].hi.a[k];
+		}
 	for (int i = 0; i < 3; i++)
 		search_axis(b, c, i, &best);
 	*axis = best.axis;

@@ -78,7 +78,7 @@ struct plane_builder {
 	plane_rule *rule;
 	double slack, margin;      /* margin: 2^-24 of the root's longest side; cells are never thinner, boxes stand off by it */
 	struct box *bounds;        /* of every primitive */
-	double *low, *high;        /* [primitives] room for a rule to work in */
+	double *low[3], *high[3];  /* [primitives] room for a rule to work in, an array an axis */
 	uint32_t *ids;             /* lists of the cells on the way down */
 	size_t id_count, id_room, node_room, box_room, ref_room;
 	struct planes tree;

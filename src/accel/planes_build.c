@@ -197,10 +197,14 @@ static int open_builder(struct plane_builder *b, struct err *e)
 {
 	const struct primitives *p = b->accel->primitives;
 	b->bounds = malloc(p->count * sizeof *b->bounds);
-	b->low = malloc(p->count * sizeof *b->low);
-	b->high = malloc(p->count * sizeof *b->high);
-	if (!b->bounds || !b->low || !b->high)
+	if (!b->bounds)
 		return err_memory(e, "tree of planes");
+	for (int i = 0; i < 3; i++) {
+		b->low[i] = malloc(p->count * sizeof *b->low[i]);
+		b->high[i] = malloc(p->count * sizeof *b->high[i]);
+		if (!b->low[i] || !b->high[i])
+			return err_memory(e, "tree of planes");
+	}
 	if (reserve_ids(b, p->count, e) != 0 || reserve_nodes(b, 64, e) != 0)
 		return -1;
 	b->tree.nodes[b->tree.node_count++] = (struct plane_node){ .depth = 0 };
@@ -214,8 +218,10 @@ static int open_builder(struct plane_builder *b, struct err *e)
 static void close_builder(struct plane_builder *b)
 {
 	free(b->bounds);
-	free(b->low);
-	free(b->high);
+	for (int i = 0; i < 3; i++) {
+		free(b->low[i]);
+		free(b->high[i]);
+	}
 	free(b->ids);
 	free(b->tree.nodes);
 	free(b->tree.boxes);
