@@ -36,6 +36,10 @@ static inline void compare_all(const struct accel *a, enum workload w, uint64_t 
 	COMPARE(tests, tests);
 	COMPARE(inner, inner);
 	COMPARE(boxes, boxes);
+	if (a->mailbox == MAILBOX_ONE && !isnan(p.tests_one))
+		COMPARE(tests_made, tests_one);
+	if (a->mailbox == MAILBOX_FULL && !isnan(p.tests_one) && actual.tests_made.mean > p.tests_one + 4 * actual.tests_made.se)
+		fail_msg("%s: a full mailbox spares less than one of one leaf", what);
 	if (!isnan(p.inner_start)) {
 		COMPARE(inner_step, inner_step);
 		COMPARE(inner_start, inner_start);

@@ -36,15 +36,15 @@ static struct accel build_variant(const struct primitives *p, const struct varia
 
 static const struct variant variants[] = {
 	{ "kd", { { "max_objects", 2 } } },
-	{ "kd", { { "max_objects", 1 }, { "max_depth", 12 }, { "traversal", 1 }, { "root", ROOT_CUBE } } },
+	{ "kd", { { "max_objects", 1 }, { "max_depth", 12 }, { "traversal", 1 }, { "root", ROOT_CUBE }, { "mailbox", MAILBOX_ONE } } },
 	{ "kd", { { "max_objects", 4 }, { "boxes", 0.5 } } },
 	{ "kd", { { "max_objects", 1 }, { "boxes", 0.9 }, { "root", ROOT_CUBE }, { "max_depth", 10 } } },
-	{ "bsp", { { "max_objects", 2 }, { "max_depth", 16 } } },
+	{ "bsp", { { "max_objects", 2 }, { "max_depth", 16 }, { "mailbox", MAILBOX_ONE } } },
 	{ "bsp", { { "max_objects", 5 }, { "max_depth", 18 }, { "traversal", 1 }, { "root", ROOT_CUBE } } },
-	{ "bsp", { { "max_objects", 5 }, { "max_depth", 15 }, { "empty_halves", 1 } } },
-	{ "grid", { { "resolution", 16 } } },
-	{ "grid", { { "resolution", 5 }, { "resolution_y", 8 }, { "resolution_z", 13 }, { "root", ROOT_CUBE } } },
-	{ "grid", { { "setting", GRID_WOO } } },
+	{ "bsp", { { "max_objects", 5 }, { "max_depth", 15 }, { "empty_halves", 1 }, { "mailbox", MAILBOX_FULL } } },
+	{ "grid", { { "resolution", 16 }, { "mailbox", MAILBOX_ONE } } },
+	{ "grid", { { "resolution", 5 }, { "resolution_y", 8 }, { "resolution_z", 13 }, { "root", ROOT_CUBE }, { "mailbox", MAILBOX_FULL } } },
+	{ "grid", { { "setting", GRID_WOO }, { "mailbox", MAILBOX_ONE } } },
 	{ "grid", { { "setting", GRID_HOMOGENEOUS }, { "density", 3 } } },
 	{ "grid", { { "setting", GRID_HETEROGENEOUS }, { "density", 5 } } },
 };

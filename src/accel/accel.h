@@ -38,6 +38,10 @@ enum travel { TRAVEL_LINKS, TRAVEL_RECURSIVE, TRAVEL_RESTART };
 /* Which tests are spared: none, those of primitives that the last leaf listed too, all that the ray has had before. */
 enum mailbox_kind { MAILBOX_NONE, MAILBOX_ONE, MAILBOX_FULL };
 
+/* What ends subdivision before the structure's own limits do, where it has such an option: nothing, or the least predicted cost
+ * (cost/stop.h; to accel_build they are all the same). */
+enum stop { STOP_NONE, STOP_MODEL, STOP_EXACT };
+
 /* One cell as a predictor sees it; inner cells are listed too. A leaf is convex and the leaves partition the root, but for what
  * boxes cut away: no surface is there. A structure without inner cells lists leaves of depth 0 only. */
 struct cell {

@@ -9,6 +9,7 @@
 
 static const char *const root_words[] = { "cube", "box", NULL };
 static const char *const mailbox_words[] = { "none", "one", "full", NULL };
+static const char *const stop_words[] = { "none", "model", "exact", NULL };
 static const char *const setting_words[] = { "given", "woo", "homogeneous", "heterogeneous", NULL };
 #define AT(field) offsetof(struct grid_options, field)
 static const struct key keys[] = {
@@ -22,13 +23,15 @@ static const struct key keys[] = {
 	{ "root", KEY_WORD, AT(root), 0, 0, ROOT_BOX, root_words, "the region: bounding cube or tight bounding box" },
 	{ "mailbox", KEY_WORD, AT(mailbox), 0, 0, MAILBOX_NONE, mailbox_words,
 	  "tests spared: none, of what the last cell listed too, of all the ray has been tested against" },
+	{ "stop", KEY_WORD, AT(stop), 0, 0, STOP_NONE, stop_words,
+	  "given: nothing, or the best of 1, 2, 4, ... cells along x, up to the resolution, by the model or the exact expectation" },
 	{ 0 }
 };
 
 static bool applies(const void *opt, const char *key)
 {
 	const struct grid_options *o = opt;
-	if (strncmp(key, "resolution", 10) == 0)
+	if (strncmp(key, "resolution", 10) == 0 || strcmp(key, "stop") == 0)
 		return o->setting == GRID_GIVEN;
 	return strcmp(key, "density") != 0 || o->setting == GRID_HOMOGENEOUS || o->setting == GRID_HETEROGENEOUS;
 }

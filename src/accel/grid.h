@@ -15,7 +15,7 @@ enum grid_setting { GRID_GIVEN, GRID_WOO, GRID_HOMOGENEOUS, GRID_HETEROGENEOUS }
 struct grid_options {
 	int64_t resolution, resolution_y, resolution_z;
 	double density; /* cells a primitive */
-	int setting, root, mailbox;
+	int setting, root, mailbox, stop;
 };
 
 enum { GRID_SIDE_MOST = 4096, GRID_CELLS_MOST = 1 << 28 };

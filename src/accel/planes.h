@@ -20,12 +20,12 @@ enum { PLANES_LEVELS = 60, PLANES_DEPTH = 2 * PLANES_LEVELS + 1 };
  * surface area holds that box. */
 struct plane_options {
 	int64_t max_objects, max_depth;
-	int root, travel, mailbox;
+	int root, travel, mailbox, stop;
 	double boxes;
 };
 
 /* 'traversal' is an index into plane_travel_words, which start at TRAVEL_RECURSIVE. */
-extern const char *const plane_root_words[], *const plane_travel_words[], *const plane_mailbox_words[];
+extern const char *const plane_root_words[], *const plane_travel_words[], *const plane_mailbox_words[], *const plane_stop_words[];
 
 #define PLANE_MAX_OBJECTS(type, field) \
 	{ "max_objects", KEY_INT, offsetof(type, field.max_objects), 1, 1e9, 5, NULL, "a cell that lists more primitives is split" }
@@ -37,7 +37,9 @@ extern const char *const plane_root_words[], *const plane_travel_words[], *const
 	{ "traversal", KEY_WORD, offsetof(type, field.travel), 0, 0, 0, plane_travel_words, \
 	  "recursive: nearer half first; restart: every leaf is found from the root" }, \
 	{ "mailbox", KEY_WORD, offsetof(type, field.mailbox), 0, 0, MAILBOX_NONE, plane_mailbox_words, \
-	  "tests spared: none, of what the last leaf listed too, of all the ray has been tested against" }
+	  "tests spared: none, of what the last leaf listed too, of all the ray has been tested against" }, \
+	{ "stop", KEY_WORD, offsetof(type, field.stop), 0, 0, STOP_NONE, plane_stop_words, \
+	  "what ends subdivision before max_depth: nothing, or the least cost that the model, or the exact expectation, predicts" }
 
 /* What stands in plane_node.kind: the axis of a plane, or one of these. */
 enum { NODE_BOX = 3, NODE_LEAF = 4 };

@@ -8,6 +8,7 @@
 const char *const plane_root_words[] = { "cube", "box", NULL };
 const char *const plane_travel_words[] = { "recursive", "restart", NULL };
 const char *const plane_mailbox_words[] = { "none", "one", "full", NULL };
+const char *const plane_stop_words[] = { "none", "model", "exact", NULL };
 
 /* Make room for 'more' elements of 'size' bytes behind 'count'. 0, or -1 and *e. */
 static int reserve(void **array, size_t count, size_t *room, size_t more, size_t size, struct err *e)

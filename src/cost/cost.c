@@ -15,6 +15,7 @@
  * 2 a becomes a, and Z = A(root) + a. */
 #include "cost/cost.h"
 
+#include "cost/mailbox.h"
 #include "cost/solid.h"
 #include "cost/surface.h"
 
@@ -182,6 +183,10 @@ int cost_predict(struct prediction *p, const struct accel *a, enum law law, doub
 		status = err_memory(e, "prediction");
 	if (status == 0)
 		status = a->ops->cells(a, visit, &s);
+	bool has_mailbox = a->mailbox != MAILBOX_NONE && (law == LAW_RAYS || law == LAW_LINES);
+	double spared = NAN;
+	if (status == 0 && has_mailbox)
+		status = mailbox_measure_spared(&spared, a, law == LAW_LINES, e);
 	for (; s.depth >= 0; s.depth--)
 		close_frame(&s, s.depth);
 	free(s.open);
@@ -195,6 +200,7 @@ int cost_predict(struct prediction *p, const struct accel *a, enum law law, doub
 		.predicted_exact = s.weight_exact / all,
 		.leaves = s.leaves / all,
 		.tests = s.tests / all,
+		.tests_one = s.has_boxes ? NAN : (s.tests - spared) / all,
 		.inner_step = s.step / all,
 		.inner_start = s.start / all,
 		.inner_top_down = s.top_down / all,

@@ -17,6 +17,8 @@ struct prediction {
 	double predicted_exact;     /* E*: the expected cost, exactly */
 	double predicted_one;       /* E* as printed: eq. (2), one-sided area both in the surface term and below */
 	double leaves, tests;       /* expected counts, exactly */
+	double tests_one;           /* expected tests with a one-deep mailbox, exactly; a full one makes as many or fewer. NAN where the
+	                             * structure has no mailbox, where boxes cut space away, and for one-sided rays */
 	double inner_step, inner_start; /* NAN where boxes are tested, for then a ray may meet many before its first leaf */
 	double inner;               /* inner nodes in all, as the structure's rays travel */
 	double inner_top_down;      /* inner nodes of a recursive front-to-back traversal */
