@@ -55,8 +55,12 @@ bool scatter_finish(struct scatter *s, struct plot *p)
 	text_print(&p->script, "set xlabel '%s'\nset ylabel '%s'\nset key outside right top samplen 1\nset grid linecolor '#dddddd'\n",
 	           s->x_label, s->y_label);
 	text_print(&p->script, "set format x '%%g'\nset format y '%%g'\n%s", s->log_x ? "set logscale x\n" : "");
-	text_print(&p->script, "set arrow from graph 0, first 1 to graph 1, first 1 nohead linecolor '#888888' dashtype 2\n");
-	print_bands(s, &p->script);
+	if (s->log_y) {
+		text_print(&p->script, "set logscale y\n");
+	} else {
+		text_print(&p->script, "set arrow from graph 0, first 1 to graph 1, first 1 nohead linecolor '#888888' dashtype 2\n");
+		print_bands(s, &p->script);
+	}
 	text_print(&p->script, "plot");
 	for (int i = 0; i < s->series_count; i++) {
 		text_print(&p->script, "%s '%s.dat' index %d %stitle '%s' with %s pointtype %d pointsize 0.6 linecolor '%s'", i ? ", \\\n " : "",
