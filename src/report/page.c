@@ -2,6 +2,7 @@
 
 #include "report/claims.h"
 #include "report/figures.h"
+#include "report/grids.h"
 #include "report/rows.h"
 #include "report/subramanian.h"
 
@@ -173,6 +174,7 @@ int report_write(const char *folder, struct text *said, struct err *e)
 		text_print(&page, "<p>%zu rows: what a ray was predicted to cost in each structure, and what it cost.</p>\n", t.rows);
 		add_claims(&page, &t);
 		subramanian_print(&page, &t, &times);
+		grids_print(&page, &t);
 		status = add_figures(&page, &t, folder, said, e);
 		add_rows(&page, &t);
 		text_add(&page, tail, sizeof tail - 1);

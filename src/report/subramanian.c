@@ -104,7 +104,7 @@ static void print_scenes(struct text *out, const struct table *t)
 {
 	static const char *const heads[] = { "scene", "primitives", "visual rays", "paper", "shadow rays", "paper", "hits", "paper", NULL };
 	static const char *const visual[] = { "primary", "reflected", "refracted", NULL }, *const shadow[] = { "shadow", NULL };
-	open_table(out, "Table 1: the scenes", "Rays in thousands, for 512 x 512 pixels as in the paper; a hit sends a shadow ray to every light.",
+	open_table(out, "Table 1: the scenes", "Rays in thousands: here those of the job's image, in the paper those of 512 x 512 pixels. A hit sends a shadow ray to every light here.",
 	           heads);
 	for (int i = 0; i < SCENES; i++) {
 		size_t row = find_image(t, i);
