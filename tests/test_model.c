@@ -18,7 +18,7 @@ static void regions_are_the_sums_they_stand_for(void **state)
 		struct accel a;
 		struct model m;
 		assert_int_equal(accel_build(&a, accel_find("grid"), &o, &p, &e), 0);
-		assert_int_equal(model_partition(&m, &a, &e), 0);
+		assert_int_equal(model_make(&m, &a, &e), 0);
 		double sum = 0, passed = 1, mean = 0;
 		for (uint64_t i = 1; i <= a.leaves; i++) {
 			mean += passed; /* the chance that region i is examined */
@@ -48,7 +48,7 @@ static void statistics_by_hand(void **state)
 	struct accel a;
 	struct model m;
 	assert_int_equal(accel_build(&a, accel_find("grid"), &o, &p, &e), 0);
-	assert_int_equal(model_partition(&m, &a, &e), 0);
+	assert_int_equal(model_make(&m, &a, &e), 0);
 	assert_near(m.per_leaf, 2.0 / 8, 1e-12);
 	assert_near(m.chance, 2 * (2 * 0.5 * 0.5) / (8 * 6), 1e-12);
 	assert_near(m.flops.scene, 15.5 * m.regions * m.per_leaf, 1e-12);
@@ -94,13 +94,13 @@ static void hierarchy_of_figure_4(void **state)
 	const struct accel a = { .ops = &ops, .primitives = &p, .root = { vec(0, 0, 0), vec(8, 8, 8) }, .depth = 3,
 		                 .nodes = sizeof figure4 / sizeof *figure4, .leaves = 12 };
 	struct model m;
-	double descent, A = 64;
-	assert_int_equal(model_hierarchy(&m, &descent, &a, &e), 0);
+	double A = 64;
+	assert_int_equal(model_make(&m, &a, &e), 0);
 	/* 1 + 4 P(A|A) + 2 P(B|A) + 3 P(C|A) + 2 P(D|A) + 2 P(E|A) + 3 P(F|A) + 2 P(G|A) */
 	double regions = 1 + 4 + (2 * 16 + 3 * 25 + 2 * 9 + 2 * 4 + 3 * 9 + 2 * 4) / A;
 	assert_near(m.regions, regions, 1e-12);
 	assert_near(m.cost, 15.5 * regions, 1e-12);
-	assert_near(descent, 15.5 * (1 + 7 * 3 + 4 * 2) / 12, 1e-12);
+	assert_near(m.descent, 15.5 * (1 + 7 * 3 + 4 * 2) / 12, 1e-12);
 	primitives_free(&p);
 }
 
@@ -144,7 +144,7 @@ static void stops_where_the_prediction_is_least(void **state)
 			struct model m;
 			struct prediction q;
 			assert_int_equal(accel_build(&a, ops, options, &p, &e), 0);
-			assert_int_equal(model_partition(&m, &a, &e), 0);
+			assert_int_equal(model_make(&m, &a, &e), 0);
 			assert_int_equal(cost_predict(&q, &a, LAW_RAYS, 1, 1, &e), 0);
 			double cost = by == STOP_MODEL ? m.cost : FLOPS_TEST * q.tests + FLOPS_PLANE * q.inner;
 			if (cost < least) {

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { RAYS = 100000 };
+enum { RAYS = 60000 };
 
 /* A structure with options as a job would write them. */
 struct variant {

@@ -2,6 +2,7 @@
  * and a pilot that replays exactly. */
 #include "tests/check.h"
 
+#include "accel/kd_split.h"
 #include "accel/octree.h"
 #include "trace/camera.h"
 #include "trace/replay.h"
@@ -206,15 +207,21 @@ static void replay_counts_what_tracing_counts(void **state)
 		struct pilot pilot;
 		assert_int_equal(pilot_make(&pilot, &s.setting, &list, &o, 24, 20, 2, NULL, &e), 0);
 		o.sampling = SAMPLE_LATTICE;
-		for (int v = 0; v < 10; v++) {
+		const struct kd_options kd = { .common = { .max_objects = 2, .max_depth = 14, .root = ROOT_BOX, .mailbox = MAILBOX_FULL, .boxes = 0.5 } };
+		for (int v = 0; v < 11; v++) {
 			struct octree_options octree = variant(v);
-			struct accel a = build(&s, "octree", &octree);
+			struct accel a = v < 10 ? build(&s, "octree", &octree) : build(&s, "kd", &kd);
 			struct rendering traced;
 			struct estimate cost;
+			struct replay_counts counts;
 			render(&traced, &s, &a, &o, 2);
-			assert_int_equal(replay_cost(&cost, &pilot, &a, 1, 1, &e), 0);
+			assert_int_equal(replay_cost(&cost, &counts, &pilot, &a, 1, 1, &e), 0);
 			assert_near(cost.mean / traced.actual.cost.mean, 1, 1e-12);
 			assert_true(cost.low < cost.mean && cost.mean < cost.high);
+			assert_near(counts.leaves / traced.actual.leaves.mean, 1, 1e-12);
+			assert_near(counts.inner / traced.actual.inner.mean, 1, 1e-12);
+			assert_near(counts.boxes, traced.actual.boxes.mean, 1e-12);
+			assert_near(counts.tests_made, v < 10 ? traced.actual.tests.mean : traced.actual.tests_made.mean, 1e-9);
 			rendering_free(&traced);
 			accel_free(&a);
 		}

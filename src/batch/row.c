@@ -88,6 +88,7 @@ const struct column row_columns[] = {
 	REAL("model_regions", model.regions, "model: regions a ray examines, as printed"),
 	REAL("model_regions_truncated", model.regions_truncated, "model: the same with the rays that nothing stops"),
 	REAL("model_height", model.height, "model: planes above a leaf, on average"),
+	REAL("model_descent", model.descent, "model of a hierarchy: flops to add where most rays start inside"),
 	REAL("model_scene", model.flops.scene, "model: flops a ray for primitives, C_sc"),
 	REAL("model_traversal", model.flops.traversal, "model: flops a ray for traversal, C_tr"),
 	REAL("model_cost", model.cost, "model: flops a ray, C_sc + C_tr"),
@@ -95,6 +96,7 @@ const struct column row_columns[] = {
 	REAL("flops_exact_scene", flops_exact.scene, "exact expectation of flops a ray for primitives: 15.5 a test (with a mailbox: a one-deep one)"),
 	REAL("flops_exact_traversal", flops_exact.traversal, "the same for traversal: 4.5 a plane passed, 15.5 a box, or 6.5 a voxel"),
 	REAL("flops_exact", flops_exact_sum, "their sum"),
+	REAL("flops_replay", flops_replay_sum, "image: flops a ray of the pilot's rays in this structure"),
 	REAL("replay", replay.mean, "image: cost a ray of the pilot's rays in this structure"),
 	REAL("replay_low", replay.low, "lower end of its 95 % interval, by bootstrap over the pilot's pixels"),
 	REAL("replay_high", replay.high, "upper end of it"),
@@ -257,7 +259,7 @@ static void compare_exact(struct row *r, enum mailbox_kind mailbox)
 	r->z_boxes = deviation(a->boxes, p->boxes);
 }
 
-static void complete_image(struct row *r)
+static void complete_image(struct row *r, const struct accel *a)
 {
 	r->rays = r->missed = 0;
 	for (int c = 0; c < RAY_CLASSES; c++) {
@@ -267,6 +269,9 @@ static void complete_image(struct row *r)
 		r->rays += t->rays;
 		r->missed += t->missed;
 	}
+	const struct replay_counts *n = &r->replayed;
+	struct flops f = flops_of(a, n->tests_made, n->leaves, n->inner, n->boxes);
+	r->flops_replay_sum = f.scene + f.traversal;
 	r->ratio_replay = r->replay.mean / r->actual.cost.mean;
 	r->ratio_calibrated = r->calibrated.mean / r->actual.cost.mean;
 }
@@ -303,7 +308,7 @@ void row_complete(struct row *r, const struct accel *a, const struct measure_spe
 		r->tests_made = actual->tests_made;
 	count_flops(r, a);
 	if (measure->render)
-		complete_image(r);
+		complete_image(r, a);
 	else if (!isnan(p->predicted_exact))
 		compare_exact(r, a->mailbox);
 }

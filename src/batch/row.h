@@ -18,6 +18,7 @@ struct row {
 	double alpha, beta, root_area, object_area;
 	struct prediction predicted;
 	struct estimate replay, calibrated;
+	struct replay_counts replayed;
 	struct actual actual;
 	struct class_tally classes[RAY_CLASSES];
 	uint64_t class_counts[RAY_CLASSES][5]; /* rays, hits, leaves, tests, inner */
@@ -25,7 +26,7 @@ struct row {
 	double actual_low, actual_high;
 	struct model model;
 	struct flops flops_exact, flops_actual;
-	double flops_exact_sum, flops_actual_sum;
+	double flops_exact_sum, flops_replay_sum, flops_actual_sum;
 	struct mean tests_made; /* only where there is a mailbox */
 	double ratio, ratio_exact, z_exact, z_leaves, z_tests, z_tests_made, z_inner_step, z_inner_start, z_inner, z_boxes;
 	double overhead_predicted, overhead_actual;

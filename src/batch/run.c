@@ -110,7 +110,7 @@ static int predict(struct row *row, struct built *built, const struct measure_sp
 		built->predicted = cost_predict(&built->prediction, &built->accel, law, m->alpha, m->beta, e) == 0;
 	}
 	if (built->predicted && !built->modelled)
-		built->modelled = model_partition(&built->model, &built->accel, e) == 0;
+		built->modelled = model_make(&built->model, &built->accel, e) == 0;
 	row->predicted = built->prediction;
 	row->model = built->model;
 	row->stopped_at = built->stopped_at < 0 ? ROW_NONE : (uint64_t)built->stopped_at;
@@ -136,7 +136,7 @@ static int measure_image(struct run *r, struct row *row, struct bench *bench, co
 	const struct render_run run = { .alpha = m->alpha, .beta = m->beta, .threads = r->options->threads, .stop = r->options->stop };
 	struct rendering image;
 	if (imaging_predict(imaging, &prepare, &built->accel, built->structure, row->predicted.predicted_exact, &row->replay,
-	                    &row->calibrated, fault) != 0)
+	                    &row->replayed, &row->calibrated, fault) != 0)
 		return -1;
 	double start = clock_seconds();
 	int status = render_scene(&image, &bench->setting, &built->accel, &m->image, &run, fault);

@@ -16,6 +16,7 @@ struct sums {
 	struct step *path; /* of the cells around the one at hand */
 	double leaves, references, planes, boxes, area, area_of_boxes;
 	double inner_children, leaf_children; /* weighted by A(parent) / A(root) */
+	double depth, gaps;                   /* of the leaves; volume of inner cells less that of their children */
 };
 
 /* The bounding box of the part of a primitive inside the cell; of a sphere's bounding box. */
@@ -55,12 +56,19 @@ static int count_planes(const struct box *around, const struct box *cell)
 	return planes;
 }
 
+static double volume(const struct box *b)
+{
+	return (b->hi.x - b->lo.x) * (b->hi.y - b->lo.y) * (b->hi.z - b->lo.z);
+}
+
 static int add_cell(void *ctx, const struct cell *c)
 {
 	struct sums *s = ctx;
 	struct step *here = &s->path[c->depth], *around = c->depth > 0 ? here - 1 : NULL;
 	*here = (struct step){ .bounds = c->bounds, .box = c->box };
+	s->gaps += c->leaf || c->box ? 0 : volume(&c->bounds);
 	if (around) {
+		s->gaps -= around->box ? 0 : volume(&c->bounds);
 		here->planes = around->planes + (around->box ? 0 : count_planes(&around->bounds, &c->bounds));
 		here->boxes = around->boxes + around->box;
 		*(c->leaf ? &s->leaf_children : &s->inner_children) += box_area(&around->bounds) / box_area(&s->accel->root);
@@ -68,6 +76,7 @@ static int add_cell(void *ctx, const struct cell *c)
 	if (!c->leaf)
 		return 0;
 	s->leaves++;
+	s->depth += c->depth;
 	s->references += c->count;
 	s->planes += here->planes;
 	s->boxes += here->boxes;
@@ -100,44 +109,38 @@ static struct flops flops_by(const struct model *m, bool grid, double regions)
 	return (struct flops){ FLOPS_TEST * regions * m->per_leaf, way * regions + FLOPS_TEST * m->boxes };
 }
 
-int model_partition(struct model *m, const struct accel *a, struct err *e)
+static void model_partition(struct model *m, const struct sums *s)
 {
-	struct sums s;
-	if (sum_cells(&s, a, e) != 0)
-		return -1;
-	*m = (struct model){ .per_leaf = s.references / s.leaves, .chance = s.area_of_boxes / s.area, .height = s.planes / s.leaves,
-		             .boxes = s.boxes / s.leaves };
-	bool grid = a->leaves == a->nodes && a->leaves > 1;
-	count_regions(m, s.leaves);
+	bool grid = s->accel->leaves == s->accel->nodes && s->accel->leaves > 1;
+	m->chance = s->area_of_boxes / s->area;
+	m->height = s->planes / s->leaves;
+	m->boxes = s->boxes / s->leaves;
+	m->descent = NAN;
+	count_regions(m, s->leaves);
 	m->flops = flops_by(m, grid, m->regions);
 	struct flops truncated = flops_by(m, grid, m->regions_truncated);
-	m->cost = m->flops.scene + m->flops.traversal;
 	m->cost_truncated = truncated.scene + truncated.traversal;
-	return 0;
 }
 
-static int add_depth(void *ctx, const struct cell *c)
+static void model_hierarchy(struct model *m, const struct sums *s)
 {
-	double *sum = ctx;
-	*sum += c->leaf ? c->depth : 0;
-	return 0;
+	m->chance = m->regions_truncated = m->cost_truncated = NAN;
+	m->height = s->depth / s->leaves;
+	m->descent = FLOPS_TEST * m->height;
+	m->regions = 1 + s->inner_children + s->leaf_children;
+	m->flops = (struct flops){ FLOPS_TEST * m->per_leaf * s->leaf_children, FLOPS_TEST * (1 + s->inner_children) };
 }
 
-int model_hierarchy(struct model *m, double *descent, const struct accel *a, struct err *e)
+int model_make(struct model *m, const struct accel *a, struct err *e)
 {
 	struct sums s;
-	double depths = 0;
 	if (sum_cells(&s, a, e) != 0)
 		return -1;
-	a->ops->cells(a, add_depth, &depths);
-	*m = (struct model){ .per_leaf = s.references / s.leaves, .chance = NAN, .regions_truncated = NAN, .height = depths / s.leaves };
-	m->regions = 1 + s.inner_children + s.leaf_children;
-	bool alone = a->nodes == 1;
-	m->flops.traversal = FLOPS_TEST * (s.inner_children + (alone ? 0 : 1));
-	m->flops.scene = FLOPS_TEST * m->per_leaf * (s.leaf_children + (alone ? 1 : 0));
+	*m = (struct model){ .per_leaf = s.references / s.leaves };
+	if (fabs(s.gaps) > 1e-6 * volume(&a->root))
+		model_hierarchy(m, &s);
+	else
+		model_partition(m, &s);
 	m->cost = m->flops.scene + m->flops.traversal;
-	m->cost_truncated = NAN;
-	if (descent)
-		*descent = FLOPS_TEST * m->height;
 	return 0;
 }

@@ -13,18 +13,15 @@ struct model {
 	double regions, regions_truncated;
 	double height;   /* mean number of planes above a leaf */
 	double boxes;    /* mean number of bounding boxes above a leaf */
+	double descent;  /* hierarchies: C_pr height, which the paper adds where most rays start inside; else NAN */
 	struct flops flops;    /* C_sc = C_pr R n_pr; C_tr = C_r R height + C_pr boxes, in a grid C_r R; by the printed R */
 	double cost;           /* their sum */
 	double cost_truncated; /* the same by the truncated R */
 };
 
-/* The model of a partition of space. 0, or -1 and *e (memory). */
-int model_partition(struct model *m, const struct accel *a, struct err *e);
-
-/* The model of a hierarchy of bounding volumes (section 3.5, after Goldsmith and Salmon 1987), whose inner cells hold what is below
- * them: R = 1 + sum over the inner cells of their children times A / A(root), the boxes a ray examines; n_pr = the mean over the
- * leaves. C_tr is what of it tests boxes around others, C_sc the rest. 'chance' and 'regions_truncated' are NAN. 'descent' (may be
- * NULL) receives C_pr height, the cost of going down the hierarchy that the paper adds where most rays start inside. */
-int model_hierarchy(struct model *m, double *descent, const struct accel *a, struct err *e);
+/* The model of a structure. Where the children of inner cells do not fill them it is a hierarchy of bounding volumes (section 3.5,
+ * after Goldsmith and Salmon 1987): R = 1 + sum over the inner cells of their children times A / A(root), the boxes a ray examines;
+ * C_tr is what of it tests boxes around others, C_sc the rest; 'chance' and the truncated mean are NAN. 0, or -1 and *e (memory). */
+int model_make(struct model *m, const struct accel *a, struct err *e);
 
 #endif

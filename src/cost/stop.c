@@ -32,7 +32,7 @@ static int measure(double *cost, const struct accel *a, enum stop stop, struct e
 	struct model m;
 	struct prediction p;
 	if (stop == STOP_MODEL) {
-		if (model_partition(&m, a, e) != 0)
+		if (model_make(&m, a, e) != 0)
 			return -1;
 		*cost = m.cost;
 		return 0;

@@ -171,10 +171,54 @@ static void print_method_row(struct text *out, const struct sweep *image, const 
 	add_number(out, "%.1f", exact.value);
 	add_number(out, "%.2f", exact.value / best.value);
 	add_number(out, "%.1f", loss(image, "flops_exact"));
+	add_number(out, "%.0f", sweep_least(image, "flops_replay").height);
+	add_number(out, "%.1f", loss(image, "flops_replay"));
 	add_number(out, "%.0f", sweep_least(&random, "flops_actual").height);
 	add_number(out, "%.1f", loss(&random, "model_cost"));
 	add_number(out, "%.1f", loss(&random, "flops_exact"));
 	text_print(out, "</tr>\n");
+}
+
+/* How good a height some prediction chooses, over all scenes of a method. */
+struct verdict {
+	size_t sweeps, near; /* near: at most one level from the heights within 2 % of the best */
+	double worst;        /* percent more than the best */
+};
+
+static struct verdict judge(const struct table *t, enum sweep_method m, bool random, const char *chosen_by)
+{
+	struct verdict v = { 0 };
+	for (int i = 0; i < SCENES; i++) {
+		const struct sweep s = { t, m, scenes[i].family, random };
+		struct sweep_best choice = sweep_least(&s, chosen_by), best = sweep_least(&s, "flops_actual");
+		if (choice.row == t->rows || best.row == t->rows)
+			continue;
+		double level = m == SWEEP_ARTS ? 2 : 1;
+		v.sweeps++;
+		v.near += m == SWEEP_ARTS ? choice.height >= best.low / level && choice.height <= best.high * level
+		                          : choice.height >= best.low - level && choice.height <= best.high + level;
+		v.worst = fmax(v.worst, loss(&s, chosen_by));
+	}
+	return v;
+}
+
+static void print_verdicts(struct text *out, const struct table *t)
+{
+	static const char *const heads[] = { "method", "rays", "who chooses", "sweeps", "within one level", "costs more than the best, at most, %", NULL };
+	static const struct { const char *column, *name; } choosers[] = {
+		{ "model_cost", "model" }, { "model_cost_truncated", "model, truncated mean" }, { "flops_exact", "exact" }, { "flops_replay", "pilot" } };
+	open_table(out, "Who ends subdivision best",
+	           "A level is a plane above a leaf, a level of the octree, a doubling of the grid; it counts from the heights within 2 % of the best.",
+	           heads);
+	for (int m = 0; m < SWEEP_METHODS; m++)
+		for (int random = 0; random < 2; random++)
+			for (size_t k = 0; k < sizeof choosers / sizeof *choosers; k++) {
+				struct verdict v = judge(t, (enum sweep_method)m, random, choosers[k].column);
+				if (v.sweeps)
+					text_print(out, "<tr><td>%s</td><td>%s</td><td>%s</td><td class=\"n\">%zu</td><td class=\"n\">%zu</td><td class=\"n\">%.1f</td></tr>\n",
+					           methods[m].name, random ? "random" : "image", choosers[k].name, v.sweeps, v.near, v.worst);
+			}
+	close_table(out);
 }
 
 static void print_methods(struct text *out, const struct table *t, const struct table *times)
@@ -182,10 +226,10 @@ static void print_methods(struct text *out, const struct table *t, const struct 
 	static const char *const heads[] = {
 		"scene", "paper: h predicted", "model: h", "paper: h best", "image: h best", "within 2 %", "by time", "paper: C theory",
 		"model: C", "paper: C measured", "image: C best", "paper: ratio", "model / image", "model's h costs more, %", "exact: h",
-		"exact: C", "exact / image", "exact's h costs more, %", "random rays: h best", "model's h costs more, %",
+		"exact: C", "exact / image", "exact's h costs more, %", "pilot's h", "pilot's h costs more, %", "random rays: h best", "model's h costs more, %",
 		"exact's h costs more, %", NULL };
 	for (int m = 0; m < SWEEP_METHODS; m++) {
-		char title[100], said[300];
+		char title[100], said[400];
 		bool any = false;
 		for (int i = 0; i < SCENES; i++) {
 			const struct sweep s = { t, (enum sweep_method)m, scenes[i].family, false };
@@ -193,7 +237,8 @@ static void print_methods(struct text *out, const struct table *t, const struct 
 				continue;
 			snprintf(title, sizeof title, "%s: %s", methods[m].place, methods[m].name);
 			snprintf(said, sizeof said, "C: flops a ray; h: %s. The model's C is that of the height it predicts, the image's that of the "
-			         "best height; 'exact' is the expectation under random rays, with a mailbox of one leaf.", methods[m].height);
+			         "best height; 'exact' is the expectation under random rays, with a mailbox of one leaf; "
+			         "'pilot' what the rays of a small image would cost.", methods[m].height);
 			if (!any)
 				open_table(out, title, said, heads);
 			any = true;
@@ -289,6 +334,7 @@ void subramanian_print(struct text *out, const struct table *t, const struct tab
 	text_print(out, "<h2>Subramanian and Fussell 1990, beside what was measured</h2>\n");
 	print_scenes(out, t);
 	print_methods(out, t, times);
+	print_verdicts(out, t);
 	print_errors(out, t);
 	print_fits(out, t);
 }
