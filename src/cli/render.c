@@ -3,6 +3,7 @@
 #include "base/progress.h"
 #include "batch/load.h"
 #include "cli/cli.h"
+#include "cost/stop.h"
 #include "io/png.h"
 #include "scene/tessellate.h"
 #include "trace/render.h"
@@ -97,7 +98,7 @@ static int render(const struct arguments *a, struct cli *cli, const struct scene
 	struct accel accel;
 	struct rendering image = { 0 };
 	struct render_run run = { .alpha = 1, .beta = 1, .threads = a->threads, .stop = cli->stop, .progress = show, .ctx = &progress };
-	if (accel_build(&accel, a->ops, a->options, p, e) != 0)
+	if (stop_build(&accel, a->ops, a->options, p, NULL, e) != 0)
 		return -1;
 	progress_open(&progress);
 	int status = render_scene(&image, s, &accel, &a->render, &run, e);

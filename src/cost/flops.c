@@ -4,6 +4,6 @@ struct flops flops_of(const struct accel *a, double tests, double leaves, double
 {
 	double traversal = FLOPS_PLANE * (inner - boxes) + FLOPS_TEST * boxes;
 	if (a->travel == TRAVEL_LINKS)
-		traversal = a->nodes == a->leaves ? FLOPS_VOXEL * leaves : NAN;
+		traversal = a->nodes == 1 ? 0 : a->nodes == a->leaves ? FLOPS_VOXEL * leaves : NAN;
 	return (struct flops){ FLOPS_TEST * tests, traversal };
 }
