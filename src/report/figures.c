@@ -137,9 +137,9 @@ static bool fill_calibrated(struct plot *p, const struct table *t, const char *f
 static bool fill_sweep(struct plot *p, const struct table *t, enum sweep_method method)
 {
 	static const char *const families[] = { "tetra", "dna", "arches", "balls", "geo58" };
-	static const struct { const char *column, *name; } curves[] = { { "model_cost", "model" }, { "flops_exact", "exact" }, { "flops_actual", "image" } };
+	static const struct { const char *column, *name; } curves[] = { { "flops_actual", "image" }, { "flops_exact", "exact" }, { "model_cost", "model" } };
 	struct scatter s = { .x_label = method == SWEEP_ARTS ? "cells a side" : method == SWEEP_OCTREE ? "levels" : "planes above a leaf, at most",
-		             .y_label = "flops a ray", .log_x = method == SWEEP_ARTS, .log_y = true, .lines = true };
+		             .y_label = "flops a ray", .log_x = method == SWEEP_ARTS, .log_y = true, .lines = true, .group = 3 };
 	for (size_t f = 0; f < sizeof families / sizeof *families; f++) {
 		const struct sweep sweep = { t, method, families[f], false };
 		for (size_t k = 0; k < sizeof curves / sizeof *curves; k++)

@@ -63,9 +63,12 @@ bool scatter_finish(struct scatter *s, struct plot *p)
 	}
 	text_print(&p->script, "plot");
 	for (int i = 0; i < s->series_count; i++) {
+		int color = s->group ? i / s->group : i, mark = s->group ? i % s->group : i + i / 8;
 		text_print(&p->script, "%s '%s.dat' index %d %stitle '%s' with %s pointtype %d pointsize 0.6 linecolor '%s'", i ? ", \\\n " : "",
 		           p->name, i, s->lines ? "smooth unique " : "", s->series[i].name, s->lines ? "linespoints" : "points",
-		           marks[(i + i / 8) % 8], colors[i % 8]);
+		           marks[mark % 8], colors[color % 8]);
+		if (s->group)
+			text_print(&p->script, " dashtype %d", mark + 1);
 		text_print(&p->data, "# %s\n", s->series[i].name);
 		text_add(&p->data, s->series[i].points.bytes, s->series[i].points.size);
 		text_print(&p->data, "\n\n");
