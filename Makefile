@@ -43,6 +43,9 @@ sweep: all ## predicted and actual cost of every octree variant; SIZE=1,2,3 choo
 paper: all ## the experiments of "Cost prediction for ray shooting", with a report
 	@$(BUILD)/raycost run jobs/aronov2002.yaml
 
+hierarchies: all ## the experiments of "A cost model for ray tracing hierarchies", with a report
+	@$(BUILD)/raycost run jobs/subramanian1990.yaml
+
 bench: $(BUILD)/tests/bench ## time building and shooting, beside Embree where libembree-dev is installed
 	@./$(BUILD)/tests/bench
 
@@ -53,7 +56,7 @@ clean: ## remove what was built (not out/)
 	rm -rf build
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/\1|\2/p' Makefile | awk -F '|' '{ printf "make %-8s%s\n", $$1, $$2 }'
+	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/\1|\2/p' Makefile | awk -F '|' '{ printf "make %-12s%s\n", $$1, $$2 }'
 
 $(BUILD)/raycost: $(BUILD)/src/main.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS)
@@ -84,6 +87,6 @@ $(BUILD)/version: .FORCE
 
 -include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d
 
-.PHONY: all deps test layers sweep paper bench golden clean help .FORCE
+.PHONY: all deps test layers sweep paper hierarchies bench golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:

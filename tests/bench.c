@@ -140,6 +140,30 @@ static RTCScene build_embree(RTCDevice device, const struct primitives *p, doubl
 }
 #endif
 
+/* How fast a structure of the usual options is built. */
+static void bench_build(const char *name, const struct primitives *p)
+{
+	double took[ROUNDS];
+	const struct accel_ops *ops = accel_find(name);
+	_Alignas(16) unsigned char options[ACCEL_OPT_MOST];
+	struct accel a = { 0 };
+	key_defaults(ops->keys, options);
+	for (int i = 0; i < ROUNDS; i++) {
+		struct err e = { 0 };
+		accel_free(&a);
+		double start = seconds();
+		if (accel_build(&a, ops, options, p, &e) != 0) {
+			fprintf(stderr, "%s\n", e.text);
+			exit(1);
+		}
+		took[i] = seconds() - start;
+	}
+	double middle = median(took, ROUNDS);
+	printf("  %s: built in %.3f s, %.2f M triangles/s, %.0f bytes a leaf\n", name, middle, p->count / middle / 1e6,
+	       (double)a.mem.held / (double)a.leaves);
+	accel_free(&a);
+}
+
 static double build_octree(struct accel *a, const struct primitives *p)
 {
 	double took[ROUNDS];
@@ -202,6 +226,9 @@ static int bench_scene(const char *family, int size)
 	double took = build_octree(&tree, &p);
 	printf("  octree max_objects=10 max_depth=8: built in %.3f s, %.2f M triangles/s, %.0f bytes a leaf\n", took,
 	       p.count / took / 1e6, (double)tree.mem.held / (double)tree.leaves);
+	bench_build("kd", &p);
+	bench_build("bsp", &p);
+	bench_build("grid", &p);
 	struct ray_source source;
 	struct ray *rays = malloc(RAYS * sizeof *rays);
 	if (!rays || ray_source_open(&source, &tree, WORKLOAD_INVARIANT, 2002, &e) != 0)

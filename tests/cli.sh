@@ -108,13 +108,13 @@ expect 2 "lies outside the job file's folder" "$raycost" run "$work/outside.yaml
 
 # A job: the same bytes for 1, 2 and 7 threads; a second time nothing is done.
 run() { "$raycost" run jobs/smoke.yaml "$@"; }
-expect 0 '48 rows' run --dry-run
-for threads in 1 2 7; do expect 0 '48 rows, 0 failed' run --threads $threads -o "$work/t$threads"; done
+expect 0 '108 rows' run --dry-run
+for threads in 1 2 7; do expect 0 '108 rows, 0 failed' run --threads $threads -o "$work/t$threads"; done
 same "$work/t1/counts.csv" "$work/t2/counts.csv"
 same "$work/t1/counts.csv" "$work/t7/counts.csv"
-expect 0 '48 rows, 0 failed' run -o "$work/t1"
+expect 0 '108 rows, 0 failed' run -o "$work/t1"
 same "$work/t1/counts.csv" "$work/t2/counts.csv"
-expect 0 '"rows_kept": 48' cat "$work/t1/manifest.json"
+expect 0 '"rows_kept": 108' cat "$work/t1/manifest.json"
 
 # Killed at any time, started again: the same file. A torn last line is dropped and done anew.
 for delay in 0.02 0.05 0.1 0.2 0.3; do
@@ -124,14 +124,14 @@ for delay in 0.02 0.05 0.1 0.2 0.3; do
 	kill -9 $victim 2>/dev/null
 	wait $victim 2>/dev/null
 done
-expect 0 '48 rows, 0 failed' run -o "$work/killed"
+expect 0 '108 rows, 0 failed' run -o "$work/killed"
 same "$work/t1/counts.csv" "$work/killed/counts.csv"
 head -c 9000 "$work/t1/counts.csv" >"$work/killed/counts.csv"
-expect 0 '48 rows, 0 failed' run -o "$work/killed"
+expect 0 '108 rows, 0 failed' run -o "$work/killed"
 same "$work/t1/counts.csv" "$work/killed/counts.csv"
 
 # Rows of another job are set aside, never mixed in.
-expect 0 '48 rows, 0 failed' run --set size=1,3 -o "$work/killed"
+expect 0 '108 rows, 0 failed' run --set size=1,3 -o "$work/killed"
 expect 0 'tetra-2' cat "$work/killed/counts.old.csv"
 expect 1 '' grep -q tetra-2 "$work/killed/counts.csv"
 

@@ -1,43 +1,9 @@
 /* The project's claim: predicted cost equals the measured mean within sampling error, for every scene and every variant. */
-#include "tests/check.h"
+#include "tests/structure.h"
 
 #include "accel/octree.h"
-#include "base/par.h"
-#include "cost/cost.h"
-#include "trace/shoot.h"
 
 enum { RAYS = 200000 };
-
-/* Nothing measured is ever more than four standard errors away; counts that do not vary must agree to rounding. */
-static void compare(const char *what, struct mean actual, double predicted)
-{
-	double far = fabs(actual.mean - predicted);
-	if (far > 4 * actual.se && far > 1e-12 * fabs(predicted))
-		fail_msg("%s: measured %.6f, predicted %.6f, z %.2f", what, actual.mean, predicted,
-		         (actual.mean - predicted) / actual.se);
-}
-
-static void compare_all(const struct accel *a, enum workload w, uint64_t rays, const char *what)
-{
-	struct err e = { 0 };
-	struct prediction p;
-	struct actual actual;
-	char name[160];
-	enum law law = w == WORKLOAD_LINES ? LAW_LINES : w == WORKLOAD_ONE_SIDED ? LAW_EXT : LAW_RAYS;
-	if (cost_predict(&p, a, law, 1, 1, &e) != 0 ||
-	    shoot_rays(&actual, a, w, rays, 2002, 1, 1, par_processors(), NULL, &e) != 0)
-		fail_msg("%s", e.text);
-#define COMPARE(field, prediction) do { \
-		snprintf(name, sizeof name, "%s: " #field, what); \
-		compare(name, actual.field, p.prediction); \
-	} while (0)
-	COMPARE(cost, predicted_exact);
-	COMPARE(leaves, leaves);
-	COMPARE(tests, tests);
-	COMPARE(inner_step, inner_step);
-	COMPARE(inner_start, inner_start);
-#undef COMPARE
-}
 
 static void compare_variants(const struct primitives *p, const char *scene, enum workload w, uint64_t rays)
 {
@@ -81,30 +47,10 @@ static void lines_in_gears(void **state)
 	primitives_free(&p);
 }
 
-/* Boxes whose faces lie in cell planes, twice over: in-plane and coincident at once. */
-static void add_box(struct scene *s, struct vec lo, struct vec hi)
-{
-	static const int face[6][4] = { { 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } };
-	for (int f = 0; f < 6; f++) {
-		struct vec corner[4];
-		for (int i = 0; i < 4; i++) {
-			int k = face[f][i];
-			corner[i] = vec(k & 1 ? hi.x : lo.x, k & 2 ? hi.y : lo.y, k & 4 ? hi.z : lo.z);
-		}
-		scene_add_polygon(s, corner, 4);
-	}
-}
-
 static void faces_in_cell_planes(void **state)
 {
 	(void)state;
-	struct scene s = { 0 };
-	add_box(&s, vec(0, 0, 0), vec(1, 1, 1));
-	add_box(&s, vec(0.25, 0.25, 0.25), vec(0.5, 0.75, 0.625));
-	add_box(&s, vec(0.25, 0.25, 0.25), vec(0.5, 0.75, 0.625));
-	add_box(&s, vec(0.3, 0.3, 0.3), vec(0.5, 0.75, 0.625));
-	add_box(&s, vec(0.5, 0.5, 0), vec(0.75, 0.75, 0.25));
-	struct primitives p = make_primitives(&s);
+	struct primitives p = make_flush_boxes();
 	compare_variants(&p, "boxes", WORKLOAD_INVARIANT, RAYS);
 	primitives_free(&p);
 }

@@ -1,10 +1,8 @@
 /* The octree's shape: lists, links, balance, the identities every octree obeys, and the list as the oracle of every hit. */
-#include "tests/check.h"
+#include "tests/structure.h"
 
 #include "accel/octree.h"
 #include "base/rng.h"
-#include "cost/cost.h"
-#include "trace/rays.h"
 
 #include <string.h>
 
@@ -180,9 +178,6 @@ static void checkerboard_overhead(void **state)
 	}
 }
 
-enum { SHOTS = 5000 };
-
-/* Same primitive and same t, bit for bit; fast, counted and in a crowd; from every kind of start. */
 static void agrees_with_list(void **state)
 {
 	(void)state;
@@ -193,43 +188,9 @@ static void agrees_with_list(void **state)
 	for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
 		struct primitives p = make_spd(scenes[k].family, scenes[k].size, scenes[k].tessellate);
 		for (int v = 0; v < 4; v++) {
-			struct err e = { 0 };
-			struct accel tree = build(&p, options(v & 1, 2, 8, v & 2 ? ROOT_BOX : ROOT_CUBE)), list;
-			struct ray_source source;
-			int root = v & 2 ? ROOT_BOX : ROOT_CUBE;
-			assert_int_equal(accel_build(&list, accel_find("list"), &root, &p, &e), 0);
-			assert_int_equal(ray_source_open(&source, &tree, WORKLOAD_INVARIANT, 11, &e), 0);
-			static struct ray rays[SHOTS];
-			static struct hit many[SHOTS];
-			static struct tally tallies[SHOTS];
-			for (uint64_t i = 0; i < SHOTS; i++) {
-				struct ray r = ray_source_draw(&source, i);
-				if (i % 4 == 0) /* from outside, as a camera would */
-					r = (struct ray){ .o = vec_sub(r.o, vec_scale(r.d, 100)), .d = r.d, .t_max = INFINITY,
-						          .slack = r.slack, .from = NO_PRIMITIVE };
-				if (i % 4 == 1) /* a segment */
-					r.t_max = 0.3;
-				rays[i] = r;
-			}
-			tree.ops->shoot_many(&tree, rays, SHOTS, many, tallies);
-			for (uint64_t i = 0; i < SHOTS; i++) {
-				struct ray r = rays[i];
-				struct hit fast, counted, truth;
-				struct tally n = { 0 };
-				bool a = tree.ops->shoot(&tree, &r, &fast), b = tree.ops->shoot_counted(&tree, &r, &counted, &n);
-				bool c = list.ops->shoot(&list, &r, &truth);
-				assert_true(a == c && b == c && n.hits == c);
-				assert_int_equal(fast.id, truth.id);
-				assert_int_equal(counted.id, truth.id);
-				assert_memory_equal(&fast.t, &truth.t, sizeof truth.t);
-				assert_memory_equal(&counted.t, &truth.t, sizeof truth.t);
-				assert_int_equal(many[i].id, truth.id);
-				assert_memory_equal(&many[i].t, &truth.t, sizeof truth.t);
-				assert_memory_equal(&tallies[i], &n, sizeof n);
-			}
-			ray_source_close(&source);
+			struct accel tree = build(&p, options(v & 1, 2, 8, v & 2 ? ROOT_BOX : ROOT_CUBE));
+			assert_agrees_with_list(&tree, v & 2 ? ROOT_BOX : ROOT_CUBE);
 			accel_free(&tree);
-			accel_free(&list);
 		}
 		primitives_free(&p);
 	}

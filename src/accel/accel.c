@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-extern const struct accel_ops accel_list, accel_octree;
+extern const struct accel_ops accel_list, accel_octree, accel_kd, accel_bsp, accel_grid;
 
-const struct accel_ops *const accel_all[] = { &accel_list, &accel_octree, NULL };
+const struct accel_ops *const accel_all[] = { &accel_list, &accel_octree, &accel_kd, &accel_bsp, &accel_grid, NULL };
 
 const struct accel_ops *accel_find(const char *name)
 {

@@ -4,8 +4,10 @@
  *   leaves       leaf cells visited over a piece of positive length, the one of the start included
  *   tests        ray-primitive tests: every primitive listed in a visited leaf, the ray's own start primitive too; there is no
  *                mailbox and no early out
+ *   tests_made   of these the ones a mailbox does not spare; 0 where the structure has none
  *   inner_step   inner nodes visited while stepping from one leaf to the next
- *   inner_start  inner nodes visited by the first descent, root included
+ *   inner_start  inner nodes visited on the way to the first leaf, root included
+ *   boxes        of both the ones that hold a bounding box, against which the ray is tested
  *   hits         1 if a primitive ends the ray, else 0
  *
  * Rules that make the closed forms of cost/ exact:
@@ -26,10 +28,22 @@
 #include <stdint.h>
 
 struct tally {
-	uint64_t leaves, tests, inner_step, inner_start, hits;
+	uint64_t leaves, tests, tests_made, inner_step, inner_start, boxes, hits;
 };
 
-/* One cell as a predictor sees it; inner cells are listed too. A leaf is convex and the leaves partition the root. */
+/* How rays get from one leaf to the next: over links between neighbours, which cells list as 'steps'; by a recursion that visits
+ * every inner node around a visited leaf once; from the root anew for every leaf. */
+enum travel { TRAVEL_LINKS, TRAVEL_RECURSIVE, TRAVEL_RESTART };
+
+/* Which tests are spared: none, those of primitives that the last leaf listed too, all that the ray has had before. */
+enum mailbox_kind { MAILBOX_NONE, MAILBOX_ONE, MAILBOX_FULL };
+
+/* What ends subdivision before the structure's own limits do, where it has such an option: nothing, or the least predicted cost
+ * (cost/stop.h; to accel_build they are all the same). */
+enum stop { STOP_NONE, STOP_MODEL, STOP_EXACT };
+
+/* One cell as a predictor sees it; inner cells are listed too. A leaf is convex and the leaves partition the root, but for what
+ * boxes cut away: no surface is there. A structure without inner cells lists leaves of depth 0 only. */
 struct cell {
 	struct box bounds;
 	double area;               /* surface area, scene units^2 */
@@ -37,6 +51,7 @@ struct cell {
 	uint32_t count;            /* of ids */
 	uint16_t depth;            /* root 0 */
 	bool leaf;
+	bool box;                  /* inner: a bounding box, that of the one cell inside, is tested here */
 	/* Leaf: inner nodes visited by a ray that crosses face f (2 axis + upper side), both directions together; 0 where the
 	 * outside or smaller cells lie across: a face is charged to its smaller cell. */
 	double steps[6];
@@ -76,6 +91,8 @@ struct accel {
 	struct arena mem;                    /* owned */
 	uint64_t nodes, leaves, empty_leaves, references;
 	int depth;                           /* of the deepest leaf */
+	enum travel travel;
+	enum mailbox_kind mailbox;
 };
 
 extern const struct accel_ops *const accel_all[]; /* NULL-terminated */

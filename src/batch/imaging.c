@@ -21,7 +21,7 @@ static int make_reference(struct reference *r, enum root_kind root, const struct
 		return -1;
 	int status = cost_predict(&predicted, &a, LAW_RAYS, run->measure->alpha, run->measure->beta, e);
 	if (status == 0)
-		status = replay_cost(&r->cost, &m->pilot, &a, run->measure->alpha, run->measure->beta, e);
+		status = replay_cost(&r->cost, NULL, &m->pilot, &a, run->measure->alpha, run->measure->beta, e);
 	accel_free(&a);
 	r->exact = predicted.predicted_exact;
 	r->known = status == 0;
@@ -29,7 +29,7 @@ static int make_reference(struct reference *r, enum root_kind root, const struct
 }
 
 int imaging_predict(struct imaging *m, const struct imaging_run *run, const struct accel *a, const struct structure_spec *spec,
-                    double exact, struct estimate *replay, struct estimate *calibrated, struct err *e)
+                    double exact, struct estimate *replay, struct replay_counts *counts, struct estimate *calibrated, struct err *e)
 {
 	const struct measure_spec *measure = run->measure;
 	enum root_kind root = root_of(spec);
@@ -44,7 +44,7 @@ int imaging_predict(struct imaging *m, const struct imaging_run *run, const stru
 		return -1;
 	double scale = exact / r->exact;
 	*calibrated = (struct estimate){ scale * r->cost.mean, scale * r->cost.low, scale * r->cost.high };
-	return replay_cost(replay, &m->pilot, a, measure->alpha, measure->beta, e);
+	return replay_cost(replay, counts, &m->pilot, a, measure->alpha, measure->beta, e);
 }
 
 void imaging_free(struct imaging *m)

@@ -27,10 +27,10 @@ struct imaging_run {
 	const atomic_int *stop;
 };
 
-/* Predict the image's cost a ray in structure a, built to 'spec': *replay by the pilot's rays, *calibrated from 'exact', the expected
+/* Predict the image's cost a ray in structure a, built to 'spec': *replay and *counts by the pilot's rays, *calibrated from 'exact', the expected
  * cost under invariant rays in a. What is missing is made first. 0, or -1 and *e: memory, stopped. */
 int imaging_predict(struct imaging *m, const struct imaging_run *run, const struct accel *a, const struct structure_spec *spec,
-                    double exact, struct estimate *replay, struct estimate *calibrated, struct err *e);
+                    double exact, struct estimate *replay, struct replay_counts *counts, struct estimate *calibrated, struct err *e);
 
 void imaging_free(struct imaging *m);
 

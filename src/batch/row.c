@@ -33,14 +33,25 @@ const struct column row_columns[] = {
 	COUNT(spheres, "spheres in the scene"),
 	TEXT(structure, "kind of the structure"),
 	OPTION(balanced, "octree: leaves that share a vertex differ by at most one level"),
-	OPTION(max_objects, "octree: a cell that lists more primitives is split"),
+	OPTION(max_objects, "octree, kd, bsp: a cell that lists more primitives is split"),
 	OPTION(root, "the region: bounding cube or tight bounding box"),
-	OPTION(max_depth, "octree: cells of this depth are not split"),
+	OPTION(max_depth, "octree, kd, bsp: cells below so many splits are not split"),
 	OPTION(overlap, "octree: exact or bounding-box lists"),
 	OPTION(criterion, "octree: what cells are split for"),
 	OPTION(cutoff, "octree, features: cells of at most this share of the root's side are not split"),
 	OPTION(root_level, "octree, random: level of the root"),
 	OPTION(run, "octree, random: which of the trees"),
+	OPTION(traversal, "kd, bsp: recursive or restart"),
+	OPTION(split, "kd: how planes are chosen"),
+	OPTION(boxes, "kd: a cell whose primitives' bounding box has less than this share of its area holds that box"),
+	OPTION(empty_halves, "bsp: what the remaining planes of an octree's step do to a half that lists nothing"),
+	OPTION(setting, "grid: how the cells along each axis are chosen"),
+	OPTION(resolution, "grid: cells along x"),
+	OPTION(resolution_y, "grid: cells along y; 0: as along x"),
+	OPTION(resolution_z, "grid: cells along z; 0: as along x"),
+	OPTION(density, "grid: cells a primitive"),
+	OPTION(mailbox, "kd, bsp, grid: which tests are spared"),
+	OPTION(stop, "kd, bsp, grid: by whose prediction subdivision ends"),
 	TEXT(workload, "invariant, invariant-one-sided, invariant-ext, lines or render"),
 	MEASURE(width, "image: pixels"),
 	MEASURE(height, "image: pixels"),
@@ -58,10 +69,11 @@ const struct column row_columns[] = {
 	TEXT(status, "ok or failed"),
 	TEXT(message, "why it failed"),
 	COUNT(nodes, "nodes of the structure, leaves included"),
-	COUNT(leaves, "leaves of the structure"),
-	COUNT(empty_leaves, "leaves that list nothing"),
-	COUNT(references, "entries in all lists"),
+	COUNT(leaves, "leaves of the structure; N_V of a grid"),
+	COUNT(empty_leaves, "leaves that list nothing; N_EV of a grid"),
+	COUNT(references, "entries in all lists; N_OIV of a grid"),
 	COUNT(depth, "of the deepest leaf; the root has 0"),
+	COUNT(stopped_at, "the max_depth or resolution that the prediction chose"),
 	REAL("root_area", root_area, "surface area of the root, scene units^2"),
 	REAL("object_area", object_area, "one-sided area of all primitives, scene units^2"),
 	REAL("area_inside", predicted.area_inside, "surface found inside the cells; equals object_area"),
@@ -71,6 +83,20 @@ const struct column row_columns[] = {
 	REAL("predicted_exact", predicted.predicted_exact, "expected cost a ray, exact for the workload"),
 	REAL("predicted_one", predicted.predicted_one, "the exact form with one side of every surface: rays that start on the front sides only, "
 	     "if none ran inside a solid"),
+	REAL("model_per_leaf", model.per_leaf, "model of Subramanian and Fussell 1990: primitives a leaf"),
+	REAL("model_chance", model.chance, "model: chance that a region stops a ray"),
+	REAL("model_regions", model.regions, "model: regions a ray examines, as printed"),
+	REAL("model_regions_truncated", model.regions_truncated, "model: the same with the rays that nothing stops"),
+	REAL("model_height", model.height, "model: planes above a leaf, on average"),
+	REAL("model_descent", model.descent, "model of a hierarchy: flops to add where most rays start inside"),
+	REAL("model_scene", model.flops.scene, "model: flops a ray for primitives, C_sc"),
+	REAL("model_traversal", model.flops.traversal, "model: flops a ray for traversal, C_tr"),
+	REAL("model_cost", model.cost, "model: flops a ray, C_sc + C_tr"),
+	REAL("model_cost_truncated", model.cost_truncated, "model: the same with model_regions_truncated"),
+	REAL("flops_exact_scene", flops_exact.scene, "exact expectation of flops a ray for primitives: 15.5 a test (with a mailbox: a one-deep one)"),
+	REAL("flops_exact_traversal", flops_exact.traversal, "the same for traversal: 4.5 a plane passed, 15.5 a box, or 6.5 a voxel"),
+	REAL("flops_exact", flops_exact_sum, "their sum"),
+	REAL("flops_replay", flops_replay_sum, "image: flops a ray of the pilot's rays in this structure"),
 	REAL("replay", replay.mean, "image: cost a ray of the pilot's rays in this structure"),
 	REAL("replay_low", replay.low, "lower end of its 95 % interval, by bootstrap over the pilot's pixels"),
 	REAL("replay_high", replay.high, "upper end of it"),
@@ -79,22 +105,34 @@ const struct column row_columns[] = {
 	REAL("calibrated_high", calibrated.high, "upper end of it"),
 	REAL("predicted_leaves", predicted.leaves, "expected leaves visited a ray"),
 	REAL("predicted_tests", predicted.tests, "expected ray-primitive tests a ray"),
+	REAL("predicted_tests_one", predicted.tests_one, "expected tests with a one-deep mailbox; at least as many as with a full one"),
 	REAL("predicted_inner_step", predicted.inner_step, "expected inner nodes a ray while stepping from leaf to leaf"),
 	REAL("predicted_inner_start", predicted.inner_start, "expected inner nodes of the first descent"),
+	REAL("predicted_inner", predicted.inner, "expected inner nodes in all, as the structure's rays travel"),
 	REAL("predicted_inner_top_down", predicted.inner_top_down, "expected inner nodes of a recursive front-to-back traversal"),
 	REAL("predicted_inner_restart", predicted.inner_restart, "expected inner nodes where every leaf is found from the root"),
+	REAL("predicted_boxes", predicted.boxes, "expected boxes of inner nodes tested"),
 	REAL("actual", actual.cost.mean, "measured cost a ray: alpha * leaves + beta * tests"),
 	REAL("actual_se", actual.cost.se, "its standard error"),
 	REAL("actual_low", actual_low, "lower end of its 95 % interval"),
 	REAL("actual_high", actual_high, "upper end of its 95 % interval"),
-	REAL("actual_leaves", actual.leaves.mean, "leaves visited a ray"),
+	REAL("actual_leaves", actual.leaves.mean, "leaves visited a ray; N_ETS of a grid"),
 	REAL("actual_leaves_se", actual.leaves.se, "its standard error"),
-	REAL("actual_tests", actual.tests.mean, "ray-primitive tests a ray"),
+	REAL("actual_tests", actual.tests.mean, "ray-primitive tests a ray; N_IT of a grid"),
 	REAL("actual_tests_se", actual.tests.se, "its standard error"),
+	REAL("actual_tests_made", tests_made.mean, "of these the ones the mailbox did not spare"),
+	REAL("actual_tests_made_se", tests_made.se, "its standard error"),
 	REAL("actual_inner_step", actual.inner_step.mean, "inner nodes visited a ray while stepping from leaf to leaf"),
 	REAL("actual_inner_step_se", actual.inner_step.se, "its standard error"),
 	REAL("actual_inner_start", actual.inner_start.mean, "inner nodes visited by the first descent"),
 	REAL("actual_inner_start_se", actual.inner_start.se, "its standard error"),
+	REAL("actual_inner", actual.inner.mean, "inner nodes visited a ray"),
+	REAL("actual_inner_se", actual.inner.se, "its standard error"),
+	REAL("actual_boxes", actual.boxes.mean, "boxes of inner nodes tested a ray"),
+	REAL("actual_boxes_se", actual.boxes.se, "its standard error"),
+	REAL("flops_actual_scene", flops_actual.scene, "measured flops a ray for primitives: 15.5 a test made"),
+	REAL("flops_actual_traversal", flops_actual.traversal, "measured flops a ray for traversal"),
+	REAL("flops_actual", flops_actual_sum, "their sum"),
 	REAL("actual_hits", actual.hits.mean, "share of rays that end on a primitive"),
 	REAL("actual_hits_se", actual.hits.se, "its standard error"),
 	REAL("ratio", ratio, "predicted / actual"),
@@ -106,6 +144,9 @@ const struct column row_columns[] = {
 	REAL("z_tests", z_tests, "the same for tests"),
 	REAL("z_inner_step", z_inner_step, "the same for inner_step"),
 	REAL("z_inner_start", z_inner_start, "the same for inner_start"),
+	REAL("z_tests_made", z_tests_made, "the same for tests with a one-deep mailbox"),
+	REAL("z_inner", z_inner, "the same for inner nodes in all"),
+	REAL("z_boxes", z_boxes, "the same for boxes"),
 	REAL("overhead_predicted", overhead_predicted, "vertical motion: (leaves + inner_step) / leaves, predicted"),
 	REAL("overhead_actual", overhead_actual, "vertical motion: (leaves + inner_step) / leaves, measured"),
 	CLASS("primary", RAY_PRIMARY),
@@ -184,7 +225,7 @@ void row_identify(struct row *r, const struct job *job, const struct scene_spec 
 	for (int c = 0; c < RAY_CLASSES; c++)
 		for (int i = 0; i < 5; i++)
 			r->class_counts[c][i] = ROW_NONE;
-	r->nodes = r->leaves = r->empty_leaves = r->references = r->depth = ROW_NONE;
+	r->nodes = r->leaves = r->empty_leaves = r->references = r->depth = r->stopped_at = ROW_NONE;
 	for (const struct column *c = row_columns; c->name; c++)
 		if (c->type == COLUMN_REAL && strcmp(c->name, "alpha") != 0 && strcmp(c->name, "beta") != 0)
 			*(double *)(void *)((char *)r + c->offset) = NAN;
@@ -201,18 +242,24 @@ static double deviation(struct mean actual, double predicted)
 }
 
 /* Deviations of the counts from what they are expected to be. */
-static void compare_exact(struct row *r)
+static void compare_exact(struct row *r, enum mailbox_kind mailbox)
 {
 	const struct prediction *p = &r->predicted;
 	const struct actual *a = &r->actual;
 	r->z_exact = deviation(a->cost, p->predicted_exact);
 	r->z_leaves = deviation(a->leaves, p->leaves);
 	r->z_tests = deviation(a->tests, p->tests);
-	r->z_inner_step = deviation(a->inner_step, p->inner_step);
-	r->z_inner_start = deviation(a->inner_start, p->inner_start);
+	if (!isnan(p->inner_start)) {
+		r->z_inner_step = deviation(a->inner_step, p->inner_step);
+		r->z_inner_start = deviation(a->inner_start, p->inner_start);
+	}
+	if (mailbox == MAILBOX_ONE && !isnan(p->tests_one))
+		r->z_tests_made = deviation(a->tests_made, p->tests_one);
+	r->z_inner = deviation(a->inner, p->inner);
+	r->z_boxes = deviation(a->boxes, p->boxes);
 }
 
-static void complete_image(struct row *r)
+static void complete_image(struct row *r, const struct accel *a)
 {
 	r->rays = r->missed = 0;
 	for (int c = 0; c < RAY_CLASSES; c++) {
@@ -222,8 +269,21 @@ static void complete_image(struct row *r)
 		r->rays += t->rays;
 		r->missed += t->missed;
 	}
+	const struct replay_counts *n = &r->replayed;
+	struct flops f = flops_of(a, n->tests_made, n->leaves, n->inner, n->boxes);
+	r->flops_replay_sum = f.scene + f.traversal;
 	r->ratio_replay = r->replay.mean / r->actual.cost.mean;
 	r->ratio_calibrated = r->calibrated.mean / r->actual.cost.mean;
+}
+
+static void count_flops(struct row *r, const struct accel *a)
+{
+	const struct prediction *p = &r->predicted;
+	const struct actual *n = &r->actual;
+	r->flops_exact = flops_of(a, isnan(p->tests_one) ? p->tests : p->tests_one, p->leaves, p->inner, p->boxes);
+	r->flops_actual = flops_of(a, a->mailbox ? n->tests_made.mean : n->tests.mean, n->leaves.mean, n->inner.mean, n->boxes.mean);
+	r->flops_exact_sum = r->flops_exact.scene + r->flops_exact.traversal;
+	r->flops_actual_sum = r->flops_actual.scene + r->flops_actual.traversal;
 }
 
 void row_complete(struct row *r, const struct accel *a, const struct measure_spec *measure)
@@ -244,10 +304,13 @@ void row_complete(struct row *r, const struct accel *a, const struct measure_spe
 	r->ratio_exact = p->predicted_exact / actual->cost.mean;
 	r->overhead_predicted = (p->leaves + p->inner_step) / p->leaves;
 	r->overhead_actual = (actual->leaves.mean + actual->inner_step.mean) / actual->leaves.mean;
+	if (a->mailbox != MAILBOX_NONE)
+		r->tests_made = actual->tests_made;
+	count_flops(r, a);
 	if (measure->render)
-		complete_image(r);
+		complete_image(r, a);
 	else if (!isnan(p->predicted_exact))
-		compare_exact(r);
+		compare_exact(r, a->mailbox);
 }
 
 static void print_field(const struct row *r, const struct column *c, char *out, size_t size)

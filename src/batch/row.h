@@ -4,6 +4,7 @@
 
 #include "batch/job.h"
 #include "cost/cost.h"
+#include "cost/model.h"
 #include "io/text.h"
 #include "trace/replay.h"
 
@@ -13,16 +14,21 @@
 struct row {
 	const char *job, *scene, *family, *structure, *workload, *status, *message;
 	uint64_t key, size, triangles, spheres, rays, missed, seed;
-	uint64_t nodes, leaves, empty_leaves, references, depth;
+	uint64_t nodes, leaves, empty_leaves, references, depth, stopped_at;
 	double alpha, beta, root_area, object_area;
 	struct prediction predicted;
 	struct estimate replay, calibrated;
+	struct replay_counts replayed;
 	struct actual actual;
 	struct class_tally classes[RAY_CLASSES];
 	uint64_t class_counts[RAY_CLASSES][5]; /* rays, hits, leaves, tests, inner */
 	double ratio_replay, ratio_calibrated;
 	double actual_low, actual_high;
-	double ratio, ratio_exact, z_exact, z_leaves, z_tests, z_inner_step, z_inner_start;
+	struct model model;
+	struct flops flops_exact, flops_actual;
+	double flops_exact_sum, flops_replay_sum, flops_actual_sum;
+	struct mean tests_made; /* only where there is a mailbox */
+	double ratio, ratio_exact, z_exact, z_leaves, z_tests, z_tests_made, z_inner_step, z_inner_start, z_inner, z_boxes;
 	double overhead_predicted, overhead_actual;
 	const struct structure_spec *spec;    /* for the columns that are options */
 	const struct measure_spec *measure;

@@ -9,6 +9,7 @@
 #include "batch/record.h"
 #include "batch/row.h"
 #include "batch/summary.h"
+#include "cost/stop.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -43,12 +44,15 @@ struct built {
 	struct accel accel;
 	bool tried, ok;
 	double seconds;
+	int64_t stopped_at; /* -1: by its own limits */
 	struct err fault;
 	/* The last prediction, for the next measure may need the same. */
 	bool predicted;
 	enum law law;
 	double alpha, beta;
 	struct prediction prediction;
+	bool modelled;
+	struct model model;
 };
 
 static int stopped(const struct run *r)
@@ -105,8 +109,12 @@ static int predict(struct row *row, struct built *built, const struct measure_sp
 		built->beta = m->beta;
 		built->predicted = cost_predict(&built->prediction, &built->accel, law, m->alpha, m->beta, e) == 0;
 	}
+	if (built->predicted && !built->modelled)
+		built->modelled = model_make(&built->model, &built->accel, e) == 0;
 	row->predicted = built->prediction;
-	return built->predicted ? 0 : -1;
+	row->model = built->model;
+	row->stopped_at = built->stopped_at < 0 ? ROW_NONE : (uint64_t)built->stopped_at;
+	return built->predicted && built->modelled ? 0 : -1;
 }
 
 /* The number of an image among those of its experiment, 0 where it is the only one. */
@@ -128,7 +136,7 @@ static int measure_image(struct run *r, struct row *row, struct bench *bench, co
 	const struct render_run run = { .alpha = m->alpha, .beta = m->beta, .threads = r->options->threads, .stop = r->options->stop };
 	struct rendering image;
 	if (imaging_predict(imaging, &prepare, &built->accel, built->structure, row->predicted.predicted_exact, &row->replay,
-	                    &row->calibrated, fault) != 0)
+	                    &row->replayed, &row->calibrated, fault) != 0)
 		return -1;
 	double start = clock_seconds();
 	int status = render_scene(&image, &bench->setting, &built->accel, &m->image, &run, fault);
@@ -192,8 +200,8 @@ static int do_row(struct run *r, struct bench *bench, struct built *built, size_
 	if (!built->tried) {
 		double start = clock_seconds();
 		built->tried = true;
-		built->ok = accel_build(&built->accel, built->structure->ops, built->structure->options, &bench->primitives,
-		                        &built->fault) == 0;
+		built->ok = stop_build(&built->accel, built->structure->ops, built->structure->options, &bench->primitives,
+		                       &built->stopped_at, &built->fault) == 0;
 		built->seconds = clock_seconds() - start;
 	}
 	if (!built->ok)

@@ -5,6 +5,8 @@
  *   leaves       sum of (A + 2 a) / Z over the leaves, tests the same weighted by the lists' lengths
  *   inner_step   what a crossing of each face costs times the face's uncovered area, over Z
  *   inner_start  depth times the measure of the starts in each leaf, over Z
+ * A recursion visits every inner cell that the ray meets, once: inner_top_down is the sum of (A + 2 a) / Z over them. Who starts from
+ * the root for every leaf visits as many as it is deep.
  * Triangles lying in a face between two cells count for neither: the rays they stop there would have entered, and the rays they
  * send out take their place. Those that overlap there stop a ray once but send out one each. In a face of the root only the inner
  * side sends rays into the structure.
@@ -13,6 +15,7 @@
  * 2 a becomes a, and Z = A(root) + a. */
 #include "cost/cost.h"
 
+#include "cost/mailbox.h"
 #include "cost/solid.h"
 #include "cost/surface.h"
 
@@ -23,7 +26,7 @@ struct frame {
 	struct box bounds;
 	struct surface surface;
 	double outside[6]; /* of every face, LAW_EXT only */
-	bool leaf;
+	bool leaf, box;
 };
 
 struct sums {
@@ -35,7 +38,8 @@ struct sums {
 	const struct solid *solid; /* LAW_EXT only */
 	double alpha, beta;
 	double weight, weight_one, weight_exact; /* sum of c A, of c (A + a), and of c times the measure of the visits */
-	double leaves, tests, top_down, restart, step, start;
+	double leaves, tests, top_down, restart, step, start, boxes;
+	bool has_boxes;
 	double area_inside, area_leaves;
 };
 
@@ -108,6 +112,9 @@ static void close_frame(struct sums *s, int depth)
 	const struct frame *c = &s->open[depth];
 	if (!c->leaf)
 		s->top_down += measure_visits(s, c);
+	if (c->box)
+		s->boxes += measure_visits(s, c);
+	s->has_boxes |= c->box;
 	if (depth == 0)
 		return;
 	struct frame *around = &s->open[depth - 1];
@@ -130,7 +137,7 @@ static int visit(void *ctx, const struct cell *c)
 		close_frame(s, s->depth);
 	s->depth = c->depth;
 	struct frame *frame = &s->open[c->depth];
-	*frame = (struct frame){ .bounds = c->bounds, .leaf = c->leaf };
+	*frame = (struct frame){ .bounds = c->bounds, .leaf = c->leaf, .box = c->box };
 	if (!c->leaf)
 		return 0;
 	if (surface_measure(&frame->surface, s->accel, c, s->err) != 0)
@@ -141,6 +148,19 @@ static int visit(void *ctx, const struct cell *c)
 	return 0;
 }
 
+/* Inner nodes of the way the structure's rays travel. */
+static void choose_travel(struct prediction *p, enum travel travel, bool has_boxes)
+{
+	if (has_boxes)
+		p->inner_restart = p->inner_start = NAN;
+	if (travel == TRAVEL_LINKS) {
+		p->inner = p->inner_step + p->inner_start;
+		return;
+	}
+	p->inner = travel == TRAVEL_RECURSIVE ? p->inner_top_down : p->inner_restart;
+	p->inner_step = p->inner - p->inner_start;
+}
+
 /* What of a prediction a law has no formula for. */
 static void clear_unknown(struct prediction *p, enum law law)
 {
@@ -148,7 +168,7 @@ static void clear_unknown(struct prediction *p, enum law law)
 		p->predicted_one = NAN;
 	if (law == LAW_ONE_SIDED)
 		p->predicted_two_sided = p->predicted_exact = p->leaves = p->tests = p->inner_step = p->inner_start =
-			p->inner_top_down = p->inner_restart = NAN;
+			p->inner = p->inner_top_down = p->inner_restart = p->boxes = NAN;
 	if (law == LAW_EXT)
 		p->predicted_two_sided = NAN;
 }
@@ -163,6 +183,10 @@ int cost_predict(struct prediction *p, const struct accel *a, enum law law, doub
 		status = err_memory(e, "prediction");
 	if (status == 0)
 		status = a->ops->cells(a, visit, &s);
+	bool has_mailbox = a->mailbox != MAILBOX_NONE && (law == LAW_RAYS || law == LAW_LINES);
+	double spared = NAN;
+	if (status == 0 && has_mailbox)
+		status = mailbox_measure_spared(&spared, a, law == LAW_LINES, e);
 	for (; s.depth >= 0; s.depth--)
 		close_frame(&s, s.depth);
 	free(s.open);
@@ -176,13 +200,16 @@ int cost_predict(struct prediction *p, const struct accel *a, enum law law, doub
 		.predicted_exact = s.weight_exact / all,
 		.leaves = s.leaves / all,
 		.tests = s.tests / all,
+		.tests_one = s.has_boxes ? NAN : (s.tests - spared) / all,
 		.inner_step = s.step / all,
 		.inner_start = s.start / all,
 		.inner_top_down = s.top_down / all,
 		.inner_restart = s.restart / all,
+		.boxes = s.boxes / all,
 		.area_inside = s.area_inside,
 		.area_leaves = s.area_leaves,
 	};
+	choose_travel(p, a->travel, s.has_boxes);
 	clear_unknown(p, law);
 	return status;
 }

@@ -17,9 +17,13 @@ struct prediction {
 	double predicted_exact;     /* E*: the expected cost, exactly */
 	double predicted_one;       /* E* as printed: eq. (2), one-sided area both in the surface term and below */
 	double leaves, tests;       /* expected counts, exactly */
-	double inner_step, inner_start;
+	double tests_one;           /* expected tests with a one-deep mailbox, exactly; a full one makes as many or fewer. NAN where the
+	                             * structure has no mailbox, where boxes cut space away, and for one-sided rays */
+	double inner_step, inner_start; /* NAN where boxes are tested, for then a ray may meet many before its first leaf */
+	double inner;               /* inner nodes in all, as the structure's rays travel */
 	double inner_top_down;      /* inner nodes of a recursive front-to-back traversal */
-	double inner_restart;       /* inner nodes where every leaf is found from the root */
+	double inner_restart;       /* inner nodes where every leaf is found from the root; NAN with boxes */
+	double boxes;               /* inner nodes that hold a box */
 	double area_inside;         /* sum of the surface inside the cells; equals the primitives' area */
 	double area_leaves;         /* sum of the leaves' surface areas */
 };

@@ -2,6 +2,7 @@
 
 #include "report/rows.h"
 #include "report/scatter.h"
+#include "report/sweep.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -132,6 +133,37 @@ static bool fill_calibrated(struct plot *p, const struct table *t, const char *f
 	return finish(&s, p);
 }
 
+/* Cost over height of one method: what the model predicts, what is expected of random rays, and what the image costs. */
+static bool fill_sweep(struct plot *p, const struct table *t, enum sweep_method method)
+{
+	static const char *const families[] = { "tetra", "dna", "arches", "balls", "geo58" };
+	static const struct { const char *column, *name; } curves[] = { { "flops_actual", "image" }, { "flops_exact", "exact" }, { "model_cost", "model" } };
+	struct scatter s = { .x_label = method == SWEEP_ARTS ? "cells a side" : method == SWEEP_OCTREE ? "levels" : "planes above a leaf, at most",
+		             .y_label = "flops a ray", .log_x = method == SWEEP_ARTS, .log_y = true, .lines = true, .group = 3 };
+	for (size_t f = 0; f < sizeof families / sizeof *families; f++) {
+		const struct sweep sweep = { t, method, families[f], false };
+		for (size_t k = 0; k < sizeof curves / sizeof *curves; k++)
+			for (size_t i = 0; i < t->rows; i++) {
+				char name[100];
+				snprintf(name, sizeof name, "%s, %s", families[f], curves[k].name);
+				if (sweep_holds(&sweep, i))
+					scatter_add(&s, name, sweep_height(&sweep, i), table_number(t, i, curves[k].column));
+			}
+	}
+	return finish(&s, p);
+}
+
+#define FILL_SWEEP(fill, method) \
+	static bool fill(struct plot *p, const struct table *t, const char *folder) \
+	{ \
+		(void)folder; \
+		return fill_sweep(p, t, method); \
+	}
+FILL_SWEEP(fill_bsp, SWEEP_BSP)
+FILL_SWEEP(fill_octree, SWEEP_OCTREE)
+FILL_SWEEP(fill_arts, SWEEP_ARTS)
+FILL_SWEEP(fill_kd, SWEEP_KD)
+
 /* Part of a drawing: which of its blocks, and gnuplot's words for how. */
 struct layer {
 	int block;
@@ -202,5 +234,10 @@ const struct figure figures[] = {
 	{ "calibrated", "Rendering: the exact predictor calibrated on one tree, over actual cost",
 	  "The cost under random rays times the ratio that the pilot has in one reference octree: no ray at all for any other tree.",
 	  fill_calibrated },
+	{ "costs-bsp", "BSP trees: cost by height", "Figure 5 of Subramanian and Fussell 1990: the model's cost, the exact expectation for random rays, "
+	  "and what the rays of an image cost.", fill_bsp },
+	{ "costs-octree", "Octrees: cost by height", "Figure 6 of the same.", fill_octree },
+	{ "costs-arts", "Grids: cost by resolution", "Figure 7 of the same.", fill_arts },
+	{ "costs-kd", "k-d trees: cost by height", "Figure 9 of the same.", fill_kd },
 	{ 0 }
 };

@@ -2,10 +2,13 @@
 
 #include "report/claims.h"
 #include "report/figures.h"
+#include "report/grids.h"
 #include "report/rows.h"
+#include "report/subramanian.h"
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char head[] =
 	"<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -156,10 +159,13 @@ static void add_rows(struct text *page, const struct table *t)
 int report_write(const char *folder, struct text *said, struct err *e)
 {
 	char path[4200];
-	struct table t = { 0 };
+	struct table t = { 0 }, times = { 0 };
 	struct text page = { 0 };
 	snprintf(path, sizeof path, "%s/counts.csv", folder);
 	int status = table_read(&t, path, e);
+	snprintf(path, sizeof path, "%s/times.csv", folder);
+	if (status == 0 && access(path, R_OK) == 0)
+		status = table_read(&times, path, e);
 	if (status == 0)
 		status = rows_prepare(&t, e);
 	if (status == 0) {
@@ -167,6 +173,8 @@ int report_write(const char *folder, struct text *said, struct err *e)
 		text_print(&page, head, job, job);
 		text_print(&page, "<p>%zu rows: what a ray was predicted to cost in each structure, and what it cost.</p>\n", t.rows);
 		add_claims(&page, &t);
+		subramanian_print(&page, &t, &times);
+		grids_print(&page, &t);
 		status = add_figures(&page, &t, folder, said, e);
 		add_rows(&page, &t);
 		text_add(&page, tail, sizeof tail - 1);
@@ -178,5 +186,6 @@ int report_write(const char *folder, struct text *said, struct err *e)
 		text_print(said, "%s\n", path);
 	text_free(&page);
 	table_free(&t);
+	table_free(&times);
 	return status;
 }

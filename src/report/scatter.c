@@ -55,13 +55,20 @@ bool scatter_finish(struct scatter *s, struct plot *p)
 	text_print(&p->script, "set xlabel '%s'\nset ylabel '%s'\nset key outside right top samplen 1\nset grid linecolor '#dddddd'\n",
 	           s->x_label, s->y_label);
 	text_print(&p->script, "set format x '%%g'\nset format y '%%g'\n%s", s->log_x ? "set logscale x\n" : "");
-	text_print(&p->script, "set arrow from graph 0, first 1 to graph 1, first 1 nohead linecolor '#888888' dashtype 2\n");
-	print_bands(s, &p->script);
+	if (s->log_y) {
+		text_print(&p->script, "set logscale y\n");
+	} else {
+		text_print(&p->script, "set arrow from graph 0, first 1 to graph 1, first 1 nohead linecolor '#888888' dashtype 2\n");
+		print_bands(s, &p->script);
+	}
 	text_print(&p->script, "plot");
 	for (int i = 0; i < s->series_count; i++) {
+		int color = s->group ? i / s->group : i, mark = s->group ? i % s->group : i + i / 8;
 		text_print(&p->script, "%s '%s.dat' index %d %stitle '%s' with %s pointtype %d pointsize 0.6 linecolor '%s'", i ? ", \\\n " : "",
 		           p->name, i, s->lines ? "smooth unique " : "", s->series[i].name, s->lines ? "linespoints" : "points",
-		           marks[(i + i / 8) % 8], colors[i % 8]);
+		           marks[mark % 8], colors[color % 8]);
+		if (s->group)
+			text_print(&p->script, " dashtype %d", mark + 1);
 		text_print(&p->data, "# %s\n", s->series[i].name);
 		text_add(&p->data, s->series[i].points.bytes, s->series[i].points.size);
 		text_print(&p->data, "\n\n");

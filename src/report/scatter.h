@@ -9,7 +9,8 @@ enum { SCATTER_SERIES = 24 };
 
 struct scatter {
 	const char *x_label, *y_label;
-	bool log_x, lines; /* lines: points of a series are joined */
+	bool log_x, log_y, lines; /* lines: points of a series are joined; log_y: y is no ratio, 1 means nothing */
+	int group; /* so many series in a row share a colour, and the nth of each a mark and a dash; 0: none do */
 	struct {
 		double low, high;
 		const char *text;

@@ -49,7 +49,7 @@ struct wave {
 struct block_sums {
 	struct class_tally classes[RAY_CLASSES];
 	struct tally square, cross; /* per sample: counts squared, and times the sample's rays */
-	uint64_t rays, rays_square, leaves_tests;
+	uint64_t rays, rays_square, leaves_tests, step_start;
 	struct segment *segments;   /* from malloc, or NULL */
 	size_t segment_count, segment_room;
 };
@@ -202,8 +202,10 @@ static void add_tally(struct tally *to, const struct tally *n)
 {
 	to->leaves += n->leaves;
 	to->tests += n->tests;
+	to->tests_made += n->tests_made;
 	to->inner_step += n->inner_step;
 	to->inner_start += n->inner_start;
+	to->boxes += n->boxes;
 	to->hits += n->hits;
 }
 
@@ -211,7 +213,7 @@ static void count_ray(struct block *b, const struct origin *from, const struct t
 {
 	struct class_tally *c = &b->sums->classes[from->class];
 	c->rays++;
-	if (n->leaves == 0) {
+	if (n->leaves + n->inner_start == 0) {
 		c->missed++;
 		return;
 	}
@@ -261,11 +263,14 @@ static void sum_samples(struct block *b, size_t count)
 #define ADD(field) do { s->square.field += n->field * n->field; s->cross.field += n->field * rays; } while (0)
 		ADD(leaves);
 		ADD(tests);
+		ADD(tests_made);
 		ADD(inner_step);
 		ADD(inner_start);
+		ADD(boxes);
 		ADD(hits);
 #undef ADD
 		s->leaves_tests += n->leaves * n->tests;
+		s->step_start += n->inner_step * n->inner_start;
 		s->rays += rays;
 		s->rays_square += rays * rays;
 	}
@@ -325,15 +330,21 @@ static void sum_up(struct rendering *out, const struct render *r, size_t blocks)
 		all.rays += b->rays;
 		all.rays_square += b->rays_square;
 		all.leaves_tests += b->leaves_tests;
+		all.step_start += b->step_start;
 	}
 	a->rays = all.rays;
 #define MEAN(field) a->field = ratio_mean((double)a->sum.field, (double)all.square.field, (double)all.cross.field, &all, r->samples)
 	MEAN(leaves);
 	MEAN(tests);
+	MEAN(tests_made);
 	MEAN(inner_step);
 	MEAN(inner_start);
+	MEAN(boxes);
 	MEAN(hits);
 #undef MEAN
+	a->inner = ratio_mean((double)a->sum.inner_step + (double)a->sum.inner_start,
+	                      (double)all.square.inner_step + (double)all.square.inner_start + 2 * (double)all.step_start,
+	                      (double)all.cross.inner_step + (double)all.cross.inner_start, &all, r->samples);
 	double square = alpha * alpha * (double)all.square.leaves + beta * beta * (double)all.square.tests +
 	                2 * alpha * beta * (double)all.leaves_tests;
 	a->cost = ratio_mean(alpha * (double)a->sum.leaves + beta * (double)a->sum.tests, square,

@@ -36,7 +36,15 @@ struct work {
 	struct tally tallies[BLOCK];
 };
 
-static void replay_block(struct pixel *pixels, struct work *w, const struct segment *segments, size_t count, const struct accel *a,
+static void add_counts(struct replay_counts *c, const struct tally *n, bool mailbox)
+{
+	c->leaves += (double)n->leaves;
+	c->tests_made += (double)(mailbox ? n->tests_made : n->tests);
+	c->inner += (double)(n->inner_step + n->inner_start);
+	c->boxes += (double)n->boxes;
+}
+
+static void replay_block(struct pixel *pixels, struct replay_counts *counts, struct work *w, const struct segment *segments, size_t count, const struct accel *a,
                          double alpha, double beta)
 {
 	for (size_t i = 0; i < count; i++) {
@@ -48,7 +56,8 @@ static void replay_block(struct pixel *pixels, struct work *w, const struct segm
 	for (size_t i = 0; i < count; i++) {
 		struct pixel *p = &pixels[segments[i].sample];
 		p->cost += alpha * (double)w->tallies[i].leaves + beta * (double)w->tallies[i].tests;
-		p->rays += w->tallies[i].leaves > 0;
+		add_counts(counts, &w->tallies[i], a->mailbox != MAILBOX_NONE);
+		p->rays += w->tallies[i].leaves + w->tallies[i].inner_start > 0;
 	}
 }
 
@@ -90,18 +99,35 @@ static void find_interval(struct estimate *out, const struct pixel *pixels, size
 	out->high = means[RESAMPLES - 1 - OUTSIDE];
 }
 
-int replay_cost(struct estimate *out, const struct pilot *p, const struct accel *a, double alpha, double beta, struct err *e)
+/* Sums over all rays as means over those that visit a cell. */
+static void find_means(struct replay_counts *c, const struct pixel *pixels, size_t count)
+{
+	double rays = 0;
+	for (size_t i = 0; i < count; i++)
+		rays += pixels[i].rays;
+	c->leaves /= rays;
+	c->tests_made /= rays;
+	c->inner /= rays;
+	c->boxes /= rays;
+}
+
+int replay_cost(struct estimate *out, struct replay_counts *counts, const struct pilot *p, const struct accel *a,
+                double alpha, double beta, struct err *e)
 {
 	struct pixel *pixels = calloc(p->samples, sizeof *pixels);
 	struct work *w = malloc(sizeof *w);
+	struct replay_counts sum = { 0 };
 	int status = pixels && w ? 0 : err_memory(e, "replay");
 	for (size_t i = 0; status == 0 && i < p->image.segment_count; i += BLOCK) {
 		size_t left = p->image.segment_count - i;
-		replay_block(pixels, w, &p->image.segments[i], left < BLOCK ? left : BLOCK, a, alpha, beta);
+		replay_block(pixels, &sum, w, &p->image.segments[i], left < BLOCK ? left : BLOCK, a, alpha, beta);
 	}
 	if (status == 0) {
 		out->mean = mean_of(pixels, p->samples);
 		find_interval(out, pixels, p->samples);
+		find_means(&sum, pixels, p->samples);
+		if (counts)
+			*counts = sum;
 	}
 	free(pixels);
 	free(w);

@@ -11,6 +11,11 @@ struct estimate {
 	double mean, low, high;
 };
 
+/* Counts a ray, over those that visit a cell; tests_made as the structure's mailbox leaves them, all tests where it has none. */
+struct replay_counts {
+	double leaves, tests_made, inner, boxes;
+};
+
 struct pilot {
 	struct rendering image; /* owned; with its segments */
 	size_t samples;
@@ -22,8 +27,9 @@ int pilot_make(struct pilot *p, const struct scene *s, const struct accel *a, co
                int64_t height, int threads, const atomic_int *stop, struct err *e);
 void pilot_free(struct pilot *p);
 
-/* The cost of the pilot's rays in structure a, over those that visit a cell: alpha a leaf, beta a primitive in its list. NAN where
- * none does. 0, or -1 and *e (memory). */
-int replay_cost(struct estimate *out, const struct pilot *p, const struct accel *a, double alpha, double beta, struct err *e);
+/* The cost of the pilot's rays in structure a, over those that visit a cell: alpha a leaf, beta a primitive in its list; and their
+ * counts (may be NULL). NAN where none does. 0, or -1 and *e (memory). */
+int replay_cost(struct estimate *out, struct replay_counts *counts, const struct pilot *p, const struct accel *a, double alpha,
+                double beta, struct err *e);
 
 #endif

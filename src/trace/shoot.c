@@ -7,10 +7,10 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-/* What a block of rays sums up: counts, their squares, and leaves times tests. Integers: the order does not matter. */
+/* What a block of rays sums up: counts, their squares, and products of two. Integers: the order does not matter. */
 struct block {
 	struct tally sum, square;
-	uint64_t leaves_tests;
+	uint64_t leaves_tests, step_start;
 };
 
 struct run {
@@ -26,11 +26,14 @@ static void add_ray(struct block *b, const struct tally *n)
 #define ADD(field) do { b->sum.field += n->field; b->square.field += n->field * n->field; } while (0)
 	ADD(leaves);
 	ADD(tests);
+	ADD(tests_made);
 	ADD(inner_step);
 	ADD(inner_start);
+	ADD(boxes);
 	ADD(hits);
 #undef ADD
 	b->leaves_tests += n->leaves * n->tests;
+	b->step_start += n->inner_step * n->inner_start;
 }
 
 /* What one block needs. */
@@ -70,32 +73,43 @@ static struct mean mean_of(double sum, double square, double n)
 	return (struct mean){ mean, n > 1 ? sqrt(variance / (n - 1)) : NAN };
 }
 
-/* Merge the blocks in order. Squares are added as doubles: only the standard errors need them. */
+/* Squares of counts as doubles: only the standard errors need them. */
+struct squares {
+	double leaves, tests, tests_made, inner_step, inner_start, boxes, hits, leaves_tests, step_start;
+};
+
+/* Merge the blocks in order. */
 static void sum_up(struct actual *out, const struct run *run, size_t blocks, double alpha, double beta)
 {
-	double leaves = 0, tests = 0, step = 0, start = 0, hits = 0, both = 0, n = (double)run->count;
+	struct squares q = { 0 };
 	struct tally *sum = &out->sum;
+	double n = (double)run->count;
 	for (size_t i = 0; i < blocks; i++) {
 		const struct block *b = &run->blocks[i];
-		sum->leaves += b->sum.leaves;
-		sum->tests += b->sum.tests;
-		sum->inner_step += b->sum.inner_step;
-		sum->inner_start += b->sum.inner_start;
-		sum->hits += b->sum.hits;
-		leaves += (double)b->square.leaves;
-		tests += (double)b->square.tests;
-		step += (double)b->square.inner_step;
-		start += (double)b->square.inner_start;
-		hits += (double)b->square.hits;
-		both += (double)b->leaves_tests;
+#define ADD(field) do { sum->field += b->sum.field; q.field += (double)b->square.field; } while (0)
+		ADD(leaves);
+		ADD(tests);
+		ADD(tests_made);
+		ADD(inner_step);
+		ADD(inner_start);
+		ADD(boxes);
+		ADD(hits);
+#undef ADD
+		q.leaves_tests += (double)b->leaves_tests;
+		q.step_start += (double)b->step_start;
 	}
-	out->leaves = mean_of((double)sum->leaves, leaves, n);
-	out->tests = mean_of((double)sum->tests, tests, n);
-	out->inner_step = mean_of((double)sum->inner_step, step, n);
-	out->inner_start = mean_of((double)sum->inner_start, start, n);
-	out->hits = mean_of((double)sum->hits, hits, n);
+#define MEAN(field) out->field = mean_of((double)sum->field, q.field, n)
+	MEAN(leaves);
+	MEAN(tests);
+	MEAN(tests_made);
+	MEAN(inner_step);
+	MEAN(inner_start);
+	MEAN(boxes);
+	MEAN(hits);
+#undef MEAN
 	out->cost = mean_of(alpha * (double)sum->leaves + beta * (double)sum->tests,
-	                    alpha * alpha * leaves + beta * beta * tests + 2 * alpha * beta * both, n);
+	                    alpha * alpha * q.leaves + beta * beta * q.tests + 2 * alpha * beta * q.leaves_tests, n);
+	out->inner = mean_of((double)sum->inner_step + (double)sum->inner_start, q.inner_step + q.inner_start + 2 * q.step_start, n);
 }
 
 int shoot_rays(struct actual *out, const struct accel *a, enum workload w, uint64_t count, uint64_t seed, double alpha,

@@ -1,0 +1,250 @@
+/* Building a tree of planes, depth first: lists wait on a stack, nodes and leaves' lists go straight to where they stay. */
+#include "accel/planes.h"
+#include "geom/triangle.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char *const plane_root_words[] = { "cube", "box", NULL };
+const char *const plane_travel_words[] = { "recursive", "restart", NULL };
+const char *const plane_mailbox_words[] = { "none", "one", "full", NULL };
+const char *const plane_stop_words[] = { "none", "model", "exact", NULL };
+
+/* Make room for 'more' elements of 'size' bytes behind 'count'. 0, or -1 and *e. */
+static int reserve(void **array, size_t count, size_t *room, size_t more, size_t size, struct err *e)
+{
+	if (*room - count >= more)
+		return 0;
+	size_t want = *room * 2 > count + more ? *room * 2 : count + more;
+	if (want > UINT32_MAX - 16)
+		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "tree of planes: more than 2^32 nodes or references");
+	void *grown = realloc(*array, want * size);
+	if (!grown)
+		return err_memory(e, "tree of planes");
+	*array = grown;
+	*room = want;
+	return 0;
+}
+
+/* The same for each of the builder's arrays. */
+#define RESERVE(what, array, count, room) \
+	static int reserve_##what(struct plane_builder *b, size_t more, struct err *e) \
+	{ \
+		void *grown = b->array; \
+		int status = reserve(&grown, b->count, &b->room, more, sizeof *b->array, e); \
+		b->array = grown; \
+		return status; \
+	}
+RESERVE(ids, ids, id_count, id_room)
+RESERVE(nodes, tree.nodes, tree.node_count, node_room)
+RESERVE(boxes, tree.boxes, tree.box_count, box_room)
+RESERVE(refs, tree.refs, tree.ref_count, ref_room)
+
+/* A cell on the way down: node n, its list at ids[first .. first + count). */
+struct task {
+	struct box bounds;
+	size_t first;
+	uint32_t count, node;
+	int level;
+};
+
+static int make_leaf(struct plane_builder *b, const struct task *t, struct err *e)
+{
+	struct plane_node *n = &b->tree.nodes[t->node];
+	if (reserve_refs(b, t->count, e) != 0)
+		return -1;
+	if (t->count > 0)
+		memcpy(b->tree.refs + b->tree.ref_count, b->ids + t->first, t->count * sizeof *b->ids);
+	n->kind = NODE_LEAF;
+	n->first = b->tree.ref_count;
+	n->count = t->count;
+	b->tree.ref_count += t->count;
+	return 0;
+}
+
+/* The box around what a cell lists, standing off by the margin, within the cell; *infinite: the same with infinite sides where it
+ * ends with the cell. False when it is not small enough to be worth a node. */
+static bool find_box(const struct plane_builder *b, const struct task *t, struct box *inside, struct box *infinite)
+{
+	struct box all = box_empty();
+	if (b->tree.options.boxes <= 0 || t->count == 0)
+		return false;
+	for (uint32_t i = 0; i < t->count; i++)
+		box_join(&all, &b->bounds[b->ids[t->first + i]]);
+	for (int i = 0; i < 3; i++) {
+		double low = all.lo.a[i] - b->margin, high = all.hi.a[i] + b->margin;
+		bool ends_low = low <= t->bounds.lo.a[i] + b->margin, ends_high = high >= t->bounds.hi.a[i] - b->margin;
+		inside->lo.a[i] = ends_low ? t->bounds.lo.a[i] : low;
+		inside->hi.a[i] = ends_high ? t->bounds.hi.a[i] : high;
+		infinite->lo.a[i] = ends_low ? -INFINITY : low;
+		infinite->hi.a[i] = ends_high ? INFINITY : high;
+	}
+	return box_area(inside) < b->tree.options.boxes * box_area(&t->bounds);
+}
+
+/* Put a node with a box above the task's node. */
+static int add_box(struct plane_builder *b, struct task *t, struct err *e)
+{
+	struct box inside, infinite;
+	if (!find_box(b, t, &inside, &infinite))
+		return 0;
+	if (reserve_boxes(b, 1, e) != 0 || reserve_nodes(b, 1, e) != 0)
+		return -1;
+	struct plane_node *n = &b->tree.nodes[t->node];
+	n->kind = NODE_BOX;
+	n->child = b->tree.node_count;
+	n->first = b->tree.box_count;
+	b->tree.boxes[b->tree.box_count++] = infinite;
+	b->tree.nodes[b->tree.node_count] = (struct plane_node){ .depth = (uint8_t)(n->depth + 1) };
+	t->node = b->tree.node_count++;
+	t->bounds = inside;
+	return 0;
+}
+
+static bool touches(const struct plane_builder *b, uint32_t id, const struct box *half)
+{
+	const struct primitive *p = &b->accel->primitives->all[id];
+	return p->kind == PRIMITIVE_TRIANGLE ? triangle_touches_inner(&p->triangle, half) : primitive_touches(p, half);
+}
+
+static struct box widen(struct box b, double slack)
+{
+	const struct vec by = vec(slack, slack, slack);
+	return (struct box){ vec_sub(b.lo, by), vec_add(b.hi, by) };
+}
+
+/* Share the task's list out between its halves: what lies clear of the plane by its bounding box, the rest by its surface. The lists
+ * follow each other behind the stack; nothing is popped. */
+static int share_out(struct plane_builder *b, const struct task *t, int axis, struct task *half, struct err *e)
+{
+	struct box wide[2] = { widen(half[0].bounds, b->slack), widen(half[1].bounds, b->slack) };
+	double low = half[1].bounds.lo.a[axis] - b->slack, high = half[0].bounds.hi.a[axis] + b->slack;
+	if (reserve_ids(b, 2 * (size_t)t->count, e) != 0)
+		return -1;
+	const uint32_t *from = b->ids + t->first;
+	uint32_t *lower = b->ids + b->id_count, *upper = lower + t->count, n = 0, m = 0;
+	for (uint32_t i = 0; i < t->count; i++) {
+		const struct box *s = &b->bounds[from[i]];
+		bool below = s->hi.a[axis] < low, above = s->lo.a[axis] > high;
+		lower[n] = from[i];
+		n += below || (!above && touches(b, from[i], &wide[0]));
+		upper[m] = from[i];
+		m += above || (!below && touches(b, from[i], &wide[1]));
+	}
+	memmove(lower + n, upper, m * sizeof *upper);
+	half[0].first = b->id_count;
+	half[0].count = n;
+	half[1].first = b->id_count + n;
+	half[1].count = m;
+	b->id_count += (size_t)n + m;
+	return 0;
+}
+
+static int split(struct plane_builder *b, struct task t, struct err *e)
+{
+	int axis;
+	double plane;
+	if (add_box(b, &t, e) != 0)
+		return -1;
+	const struct plane_cell c = { t.bounds, b->ids + t.first, t.count, t.level };
+	if (t.level >= b->tree.options.max_depth || !b->rule(b, &c, &axis, &plane))
+		return make_leaf(b, &t, e);
+	if (reserve_nodes(b, 2, e) != 0)
+		return -1;
+	struct plane_node *n = &b->tree.nodes[t.node];
+	*n = (struct plane_node){ .plane = plane, .child = b->tree.node_count, .kind = (uint8_t)axis, .depth = n->depth };
+	struct task half[2] = { { .bounds = t.bounds, .node = n->child, .level = t.level + 1 },
+		                { .bounds = t.bounds, .node = n->child + 1, .level = t.level + 1 } };
+	half[0].bounds.hi.a[axis] = half[1].bounds.lo.a[axis] = plane;
+	for (int i = 0; i < 2; i++)
+		b->tree.nodes[b->tree.node_count++] = (struct plane_node){ .depth = (uint8_t)(n->depth + 1) };
+	size_t mark = b->id_count;
+	if (share_out(b, &t, axis, half, e) != 0 || split(b, half[0], e) != 0 || split(b, half[1], e) != 0)
+		return -1;
+	b->id_count = mark;
+	return 0;
+}
+
+/* Copy the finished tree to where it stays, and sum up. */
+static int finish(struct accel *a, const struct plane_builder *b, struct err *e)
+{
+	struct planes *p = NEW(&a->mem, struct planes, 1);
+	if (!p)
+		return err_memory(e, "tree of planes");
+	*p = b->tree;
+	p->nodes = NEW(&a->mem, struct plane_node, p->node_count);
+	p->boxes = NEW(&a->mem, struct box, p->box_count);
+	p->refs = NEW(&a->mem, uint32_t, p->ref_count);
+	if (!p->nodes || !p->boxes || !p->refs)
+		return err_memory(e, "tree of planes");
+	memcpy(p->nodes, b->tree.nodes, p->node_count * sizeof *p->nodes);
+	if (p->box_count)
+		memcpy(p->boxes, b->tree.boxes, p->box_count * sizeof *p->boxes);
+	if (p->ref_count)
+		memcpy(p->refs, b->tree.refs, p->ref_count * sizeof *p->refs);
+	a->impl = p;
+	a->nodes = p->node_count;
+	a->references = p->ref_count;
+	for (uint32_t i = 0; i < p->node_count; i++) {
+		const struct plane_node *n = &p->nodes[i];
+		a->leaves += n->kind == NODE_LEAF;
+		a->empty_leaves += n->kind == NODE_LEAF && n->count == 0;
+		a->depth = n->depth > a->depth ? n->depth : a->depth;
+	}
+	return 0;
+}
+
+static int open_builder(struct plane_builder *b, struct err *e)
+{
+	const struct primitives *p = b->accel->primitives;
+	b->bounds = malloc(p->count * sizeof *b->bounds);
+	if (!b->bounds)
+		return err_memory(e, "tree of planes");
+	for (int i = 0; i < 3; i++) {
+		b->low[i] = malloc(p->count * sizeof *b->low[i]);
+		b->high[i] = malloc(p->count * sizeof *b->high[i]);
+		if (!b->low[i] || !b->high[i])
+			return err_memory(e, "tree of planes");
+	}
+	if (reserve_ids(b, p->count, e) != 0 || reserve_nodes(b, 64, e) != 0)
+		return -1;
+	b->tree.nodes[b->tree.node_count++] = (struct plane_node){ .depth = 0 };
+	for (uint32_t i = 0; i < p->count; i++) {
+		b->bounds[i] = primitive_bounds(&p->all[i]);
+		b->ids[b->id_count++] = i;
+	}
+	return 0;
+}
+
+static void close_builder(struct plane_builder *b)
+{
+	free(b->bounds);
+	for (int i = 0; i < 3; i++) {
+		free(b->low[i]);
+		free(b->high[i]);
+	}
+	free(b->ids);
+	free(b->tree.nodes);
+	free(b->tree.boxes);
+	free(b->tree.refs);
+}
+
+int planes_build(struct accel *a, const void *options, const struct plane_options *common, plane_rule *rule, struct err *e)
+{
+	struct plane_builder b = { .accel = a, .options = options, .rule = rule, .tree.options = *common };
+	struct vec size;
+	a->root = root_box(&a->primitives->bounds, (enum root_kind)common->root);
+	a->slack = 1e-9 * box_diagonal(&a->root);
+	a->travel = TRAVEL_RECURSIVE + (enum travel)common->travel;
+	a->mailbox = (enum mailbox_kind)common->mailbox;
+	size = vec_sub(a->root.hi, a->root.lo);
+	b.slack = a->slack;
+	b.margin = fmax(size.x, fmax(size.y, size.z)) * 0x1p-24;
+	int status = open_builder(&b, e);
+	if (status == 0)
+		status = split(&b, (struct task){ .bounds = a->root, .count = a->primitives->count }, e);
+	if (status == 0)
+		status = finish(a, &b, e);
+	close_builder(&b);
+	return status;
+}
