@@ -210,7 +210,8 @@ struct pov_solid {
 		struct pov_parametric parametric;
 		const char *unknown; /* why it cannot be meshed, e.g. "julia_fractal" */
 	} shape;
-	const struct pov_sealed *sealed; /* shared by copies; NULL until pov_solid_seal */
+	const void *sealed;         /* what the field of its kind needs; shared by copies; NULL until pov_solid_seal */
+	struct pov_traced *traced; /* kept by pov_solid_trace until the next move */
 };
 
 /* NULL when memory is out. */
