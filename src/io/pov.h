@@ -20,7 +20,7 @@ struct pov_access {
 
 /* What no scene may exceed; exceeding one is an error that names it. */
 struct pov_budget {
-	size_t tokens;  /* read again in loops, macros and repeated inclusions, 5e7 */
+	size_t tokens;  /* read again in loops, macros and repeated inclusions, 2.5e8 */
 	size_t rounds;  /* of loops, 1e7 */
 	size_t objects; /* 1e7 */
 	size_t bytes;   /* of memory while reading, 4e9 */

@@ -96,6 +96,11 @@ static void try_while(struct pov *p, const struct pov_token *t)
 		p->source->at = end + 1;
 }
 
+static uint32_t frame_of(const struct pov *p)
+{
+	return (uint32_t)(p->source - p->sources);
+}
+
 static bool goes_on(double x, const struct pov_branch *b)
 {
 	return b->step > 0 ? x <= b->last + 1e-10 : x >= b->last - 1e-10;
@@ -123,7 +128,7 @@ static void start_for(struct pov *p, const struct pov_token *t)
 	pov_expect(p, ')');
 	if (!p->failed && fabs(b.step) < 1e-10)
 		pov_refuse(p, "a #for with step 0");
-	pov_declare_local(p, b.variable, &first);
+	pov_declare_local(p, b.variable, frame_of(p), &first);
 	if (!end || p->failed)
 		return;
 	b.body = p->source->at;
@@ -145,7 +150,7 @@ static void next_for(struct pov *p, const struct pov_branch *b)
 	struct pov_value x = value_number(variable->refers->a[0] + b->step);
 	struct pov_branch again = *b;
 	count_round(p);
-	pov_declare_local(p, b->variable, &x);
+	pov_declare_local(p, b->variable, frame_of(p), &x);
 	if (!p->failed && goes_on(x.a[0], b)) {
 		p->source->at = again.body;
 		push(p, again);

@@ -32,14 +32,13 @@ void pov_declare(struct pov *p, uint32_t name, const struct pov_value *value)
 		*b->refers = *value;
 }
 
-void pov_declare_local(struct pov *p, uint32_t name, const struct pov_value *value)
+void pov_declare_local(struct pov *p, uint32_t name, uint32_t frame, const struct pov_value *value)
 {
-	uint32_t frame = (uint32_t)(p->source - p->sources);
-	struct pov_binding *b = scope_find(&p->scope, name);
+	struct pov_binding *b = scope_find_in(&p->scope, name, frame);
 	if (p->failed)
 		return;
-	if (!b || b->frame != frame) {
-		b = scope_bind(&p->scope, name, frame, &p->source->bindings);
+	if (!b) {
+		b = scope_bind(&p->scope, name, frame, &p->sources[frame].bindings);
 		if (!b) {
 			pov_stop(p, STATUS_ENVIRONMENT, "out of memory");
 			return;
@@ -59,6 +58,8 @@ static void skip_deprecated(struct pov *p)
 
 static void declare(struct pov *p, bool local)
 {
+	/* A macro that gives the value may not be left yet when the value is complete. */
+	uint32_t frame = (uint32_t)(p->source - p->sources);
 	const struct pov_token *t = pov_peek_operator(p);
 	struct pov_value *element = NULL;
 	uint32_t name;
@@ -90,7 +91,7 @@ static void declare(struct pov *p, bool local)
 	if (element)
 		*element = v;
 	else if (local)
-		pov_declare_local(p, name, &v);
+		pov_declare_local(p, name, frame, &v);
 	else
 		pov_declare(p, name, &v);
 }
@@ -165,8 +166,7 @@ static void set_version(struct pov *p)
 	pov_accept(p, ';');
 }
 
-/* #default { texture { ... } } */
-static void set_default(struct pov *p)
+void pov_set_default(struct pov *p)
 {
 	pov_expect(p, '{');
 	for (;;) {
@@ -213,7 +213,7 @@ void pov_directive(struct pov *p, const struct pov_token *t)
 	case WORD_undef: undefine(p); break;
 	case WORD_include: include(p); break;
 	case WORD_version: set_version(p); break;
-	case WORD_default: set_default(p); break;
+	case WORD_default: pov_set_default(p); break;
 	case WORD_macro: pov_macro_define(p, t); break;
 	case WORD_debug: case WORD_warning: case WORD_error: case WORD_render: case WORD_statistics: report(p, t->name); break;
 	case WORD_fopen: case WORD_fclose: case WORD_read: case WORD_write: pov_stream_directive(p, t->name); break;

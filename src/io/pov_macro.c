@@ -124,7 +124,7 @@ void pov_macro_call(struct pov *p, const struct pov_macro *m)
 	p->pending = (struct pov_value){ 0 };
 	for (; n < m->count && !pov_stopped(p); n++) {
 		all[n] = read_argument(p);
-		if (!pov_accept(p, ',') && !pov_stopped(p)) {
+		if (!pov_accept(p, ',') && pov_peek_operator(p)->kind == ')') {
 			n++;
 			break;
 		}

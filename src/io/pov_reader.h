@@ -140,6 +140,8 @@ struct pov_stream *pov_stream_find(struct pov *p, const char *name);
 /* pov_directive.c, pov_branch.c, pov_macro.c, pov_stream.c: directives */
 
 void pov_directive(struct pov *p, const struct pov_token *t);
+/* default { texture { ... } }, with '#' or without it. */
+void pov_set_default(struct pov *p);
 /* Those that open, part and close branches. */
 void pov_branch(struct pov *p, const struct pov_token *t);
 void pov_macro_define(struct pov *p, const struct pov_token *t);
@@ -150,8 +152,8 @@ void pov_stream_directive(struct pov *p, uint32_t word);
 struct pov_value *pov_variable(struct pov *p, uint32_t *name);
 /* As #declare: assign to the visible variable of this name, or make a global one. value is copied. */
 void pov_declare(struct pov *p, uint32_t name, const struct pov_value *value);
-/* As #local: in the frame at hand. */
-void pov_declare_local(struct pov *p, uint32_t name, const struct pov_value *value);
+/* As #local, in a frame: a source by its number. */
+void pov_declare_local(struct pov *p, uint32_t name, uint32_t frame, const struct pov_value *value);
 
 /* pov_expression.c, pov_color.c, pov_call.c, pov_call_string.c, pov_call_object.c: values */
 

@@ -9,7 +9,7 @@ static const char *const standard_directories[] = { "/usr/share/povray-3.7/inclu
 struct pov_options pov_defaults(void)
 {
 	return (struct pov_options){ .directories = standard_directories, .directory_count = 1, .width = 800, .height = 600,
-		                     .budget = { .tokens = 50000000, .rounds = 10000000, .objects = 10000000, .bytes = 4000000000u,
+		                     .budget = { .tokens = 250000000, .rounds = 10000000, .objects = 10000000, .bytes = 4000000000u,
 		                                 .depth = 200 },
 		                     .mesh = pov_mesh_defaults() };
 }
@@ -95,6 +95,8 @@ static void read_statement(struct pov *p, const struct pov_token *t)
 			read_camera(p);
 		else if (word == WORD_background)
 			read_background(p);
+		else if (word == WORD_default)
+			pov_set_default(p);
 		else if (is_passed_over(word))
 			pov_skip_block(p);
 		else if (word == WORD_max_trace_level || word == WORD_max_intersections)

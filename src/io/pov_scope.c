@@ -15,6 +15,14 @@ static bool make_room(struct pov_scope *s, uint32_t name)
 	return true;
 }
 
+struct pov_binding *scope_find_in(const struct pov_scope *s, uint32_t name, uint32_t frame)
+{
+	struct pov_binding *b = scope_find(s, name);
+	while (b && b->frame > frame)
+		b = b->outer;
+	return b && b->frame == frame ? b : NULL;
+}
+
 struct pov_binding *scope_bind(struct pov_scope *s, uint32_t name, uint32_t frame, struct pov_binding **list)
 {
 	if (!make_room(s, name))
@@ -24,9 +32,12 @@ struct pov_binding *scope_bind(struct pov_scope *s, uint32_t name, uint32_t fram
 		s->free = b->older;
 	else if (!(b = NEW(s->mem, struct pov_binding, 1)))
 		return NULL;
-	*b = (struct pov_binding){ .name = name, .frame = frame, .refers = &b->value, .outer = s->bindings[name], .older = *list };
+	struct pov_binding **place = &s->bindings[name];
+	while (*place && (*place)->frame > frame)
+		place = &(*place)->outer;
+	*b = (struct pov_binding){ .name = name, .frame = frame, .refers = &b->value, .outer = *place, .older = *list };
 	*list = b;
-	s->bindings[name] = b;
+	*place = b;
 	return b;
 }
 

@@ -27,8 +27,11 @@ static inline struct pov_binding *scope_find(const struct pov_scope *s, uint32_t
 	return name < s->room ? s->bindings[name] : NULL;
 }
 
-/* A new binding of a name in the innermost frame, whose list of bindings is *list; without a value. frame 0: of the main file, under
- * those of all other frames. NULL: memory out. */
+/* The binding of a name in this very frame, or NULL. */
+struct pov_binding *scope_find_in(const struct pov_scope *s, uint32_t name, uint32_t frame);
+
+/* A new binding of a name in a frame, whose list of bindings is *list, under those of frames further in; without a value.
+ * NULL: memory out. */
 struct pov_binding *scope_bind(struct pov_scope *s, uint32_t name, uint32_t frame, struct pov_binding **list);
 
 /* Take the innermost binding of a name away. */

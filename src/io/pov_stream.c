@@ -141,7 +141,10 @@ static void read_stream(struct pov *p)
 	struct pov_stream *s = find_handle(p, &handle);
 	if (s && !s->reads)
 		pov_refuse(p, "'%.60s' is open for writing", p->names.text[handle]);
-	while (!p->failed && pov_accept(p, ',')) {
+	for (;;) {
+		pov_accept(p, ',');
+		if (p->failed || pov_peek(p)->kind == ')')
+			break;
 		struct pov_value v, *variable = pov_variable(p, &name);
 		if (!s || next_datum(s)->kind == TOKEN_END || !read_datum(p, s, &v))
 			continue;
@@ -160,7 +163,10 @@ static void write_stream(struct pov *p)
 	uint32_t handle;
 	pov_expect(p, '(');
 	struct pov_stream *s = find_handle(p, &handle);
-	while (!p->failed && pov_accept(p, ',')) {
+	for (;;) {
+		pov_accept(p, ',');
+		if (p->failed || pov_peek(p)->kind == ')')
+			break;
 		struct pov_value v = pov_expression(p);
 		if (!s || s->reads || s->text.size > p->options->budget.bytes / 8) {
 			pov_refuse(p, "'%.60s' cannot be written", p->names.text[handle]);
