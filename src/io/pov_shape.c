@@ -58,6 +58,11 @@ const char *pov_kind_name(enum pov_kind kind)
 	return shapes[kind]->name;
 }
 
+bool pov_shape_has_inside(const struct pov_solid *s)
+{
+	return pov_shape_of(s)->field && (s->kind != POV_MESH || vec_length(s->shape.mesh.inside) > 0);
+}
+
 double pov_shape_reach(const struct pov_solid *s, struct vec p, double r)
 {
 	const struct pov_shape *shape = pov_shape_of(s);

@@ -7,11 +7,11 @@
 
 /* Where the triangles of a shape go: through 'place' into 'out', with 'material'; 'turn' where place mirrors or the inside is out.
  * n: segments of a full circle. region: finite box, in the shape's space, beyond which no surface is wanted (it may go beyond).
- * scratch: for working space. */
+ * plain: materials of single triangles do not count. scratch: for working space. */
 struct pov_drawing {
 	struct pov_facets *out;
 	const struct matrix *place;
-	bool turn;
+	bool turn, plain;
 	uint32_t material;
 	int n;
 	struct box region;
@@ -31,7 +31,7 @@ struct pov_shape {
 	 * it, for the reason in *why. */
 	int (*seal)(struct arena *a, struct pov_solid *s, const char **why, struct err *e);
 
-	/* A box about the shape and its inside; infinite sides where it is unbounded. */
+	/* A box about the surface; infinite sides where it is unbounded. */
 	struct box (*bounds)(const struct pov_solid *s);
 
 	/* Below 0 inside, above 0 outside, 0 on the surface. NULL: the shape has no inside. */
@@ -46,9 +46,21 @@ struct pov_shape {
 
 	/* Its surface; memory that cannot be had sets out->lost. */
 	void (*mesh)(const struct pov_solid *s, const struct pov_drawing *d);
+
+	/* A box about the inside, where it reaches further than the surface; else NULL. */
+	struct box (*filled)(const struct pov_solid *s);
 };
 
 const struct pov_shape *pov_shape_of(const struct pov_solid *s);
+
+/* Whether the shape has an inside: a mesh only with an inside_vector. */
+bool pov_shape_has_inside(const struct pov_solid *s);
+
+/* The container of an isosurface or parametric surface as a solid of its own; false where there is none. */
+bool pov_shape_container(const struct pov_solid *s, struct pov_solid *container);
+
+/* A box about the surface of the placed shape. */
+struct box pov_shape_placed(const struct pov_solid *s, const struct matrix *place);
 
 double pov_shape_reach(const struct pov_solid *s, struct vec p, double r);
 

@@ -48,7 +48,9 @@ static void mesh_box(const struct pov_solid *s, const struct pov_drawing *d)
 		}
 }
 
-const struct pov_shape pov_shape_box = { "box", seal_box, box_bounds, box_field, NULL, 1, NULL, mesh_box };
+const struct pov_shape pov_shape_box = {
+	.name = "box", .seal = seal_box, .bounds = box_bounds, .field = box_field, .slope = 1, .mesh = mesh_box,
+};
 
 static int seal_plane(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -94,7 +96,9 @@ static void mesh_plane(const struct pov_solid *s, const struct pov_drawing *d)
 		pov_draw(d, p.corner[0], p.corner[i - 1], p.corner[i]);
 }
 
-const struct pov_shape pov_shape_plane = { "plane", seal_plane, plane_bounds, plane_field, NULL, 1, NULL, mesh_plane };
+const struct pov_shape pov_shape_plane = {
+	.name = "plane", .seal = seal_plane, .bounds = plane_bounds, .field = plane_field, .slope = 1, .mesh = mesh_plane,
+};
 
 static int seal_disc(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -121,6 +125,12 @@ static double disc_field(const struct pov_solid *s, struct vec p)
 	return vec_dot(s->shape.disc.normal, vec_sub(p, s->shape.disc.center));
 }
 
+static struct box disc_filled(const struct pov_solid *s)
+{
+	(void)s;
+	return box_infinite();
+}
+
 static void mesh_disc(const struct pov_solid *s, const struct pov_drawing *d)
 {
 	const struct pov_disc *q = &s->shape.disc;
@@ -137,7 +147,9 @@ static void mesh_disc(const struct pov_solid *s, const struct pov_drawing *d)
 	}
 }
 
-const struct pov_shape pov_shape_disc = { "disc", seal_disc, disc_bounds, disc_field, NULL, 1, NULL, mesh_disc };
+const struct pov_shape pov_shape_disc = {
+	.name = "disc", .seal = seal_disc, .bounds = disc_bounds, .field = disc_field, .slope = 1, .mesh = mesh_disc, .filled = disc_filled,
+};
 
 /* A polygon's plane as a frame, and its loops there. */
 struct flat {
@@ -227,7 +239,9 @@ static void mesh_polygon(const struct pov_solid *s, const struct pov_drawing *d)
 		d->out->lost = true;
 }
 
-const struct pov_shape pov_shape_polygon = { "polygon", seal_polygon, polygon_bounds, NULL, NULL, 0, NULL, mesh_polygon };
+const struct pov_shape pov_shape_polygon = {
+	.name = "polygon", .seal = seal_polygon, .bounds = polygon_bounds, .mesh = mesh_polygon,
+};
 
 static struct box bicubic_bounds(const struct pov_solid *s)
 {
@@ -261,4 +275,6 @@ static void mesh_bicubic(const struct pov_solid *s, const struct pov_drawing *d)
 		}
 }
 
-const struct pov_shape pov_shape_bicubic = { "bicubic_patch", NULL, bicubic_bounds, NULL, NULL, 0, NULL, mesh_bicubic };
+const struct pov_shape pov_shape_bicubic = {
+	.name = "bicubic_patch", .bounds = bicubic_bounds, .mesh = mesh_bicubic,
+};

@@ -182,5 +182,9 @@ static void mesh_poly(const struct pov_solid *s, const struct pov_drawing *d)
 		pov_march(s, &box, box_longest(&box) / cells, d);
 }
 
-const struct pov_shape pov_shape_quadric = { "quadric", seal_quadric, quadric_bounds, poly_field, poly_reach, 0, NULL, mesh_poly };
-const struct pov_shape pov_shape_poly = { "poly", seal_poly, poly_bounds, poly_field, poly_reach, 0, NULL, mesh_poly };
+const struct pov_shape pov_shape_quadric = {
+	.name = "quadric", .seal = seal_quadric, .bounds = quadric_bounds, .field = poly_field, .reach = poly_reach, .mesh = mesh_poly,
+};
+const struct pov_shape pov_shape_poly = {
+	.name = "poly", .seal = seal_poly, .bounds = poly_bounds, .field = poly_field, .reach = poly_reach, .mesh = mesh_poly,
+};

@@ -180,7 +180,9 @@ static void mesh_prism(const struct pov_solid *s, const struct pov_drawing *d)
 		extrude(s, d, &o, p->low, p->high);
 }
 
-const struct pov_shape pov_shape_prism = { "prism", seal_prism, sealed_box, prism_field, prism_reach, 0, sealed_feature, mesh_prism };
+const struct pov_shape pov_shape_prism = {
+	.name = "prism", .seal = seal_prism, .bounds = sealed_box, .field = prism_field, .reach = prism_reach, .feature = sealed_feature, .mesh = mesh_prism,
+};
 
 static int seal_text(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -219,7 +221,9 @@ static void mesh_text(const struct pov_solid *s, const struct pov_drawing *d)
 		extrude(s, d, &q->outlines[i], q->box.lo.z, q->box.hi.z);
 }
 
-const struct pov_shape pov_shape_text = { "text", seal_text, sealed_box, text_field, NULL, 1, sealed_feature, mesh_text };
+const struct pov_shape pov_shape_text = {
+	.name = "text", .seal = seal_text, .bounds = sealed_box, .field = text_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_text,
+};
 
 /* About an axis. */
 
@@ -339,5 +343,9 @@ static void mesh_turned(const struct pov_solid *s, const struct pov_drawing *d)
 	}
 }
 
-const struct pov_shape pov_shape_lathe = { "lathe", seal_turned, sealed_box, turned_field, NULL, 1, sealed_feature, mesh_turned };
-const struct pov_shape pov_shape_sor = { "sor", seal_turned, sealed_box, turned_field, NULL, 1, sealed_feature, mesh_turned };
+const struct pov_shape pov_shape_lathe = {
+	.name = "lathe", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_turned,
+};
+const struct pov_shape pov_shape_sor = {
+	.name = "sor", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_turned,
+};

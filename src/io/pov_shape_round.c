@@ -56,7 +56,9 @@ static void mesh_sphere(const struct pov_solid *s, const struct pov_drawing *d)
 			              sphere_point(&s->shape.sphere, i + 1, rows, j + 1, n), sphere_point(&s->shape.sphere, i, rows, j + 1, n));
 }
 
-const struct pov_shape pov_shape_sphere = { "sphere", seal_sphere, sphere_box, sphere_field, NULL, 1, NULL, mesh_sphere };
+const struct pov_shape pov_shape_sphere = {
+	.name = "sphere", .seal = seal_sphere, .bounds = sphere_box, .field = sphere_field, .slope = 1, .mesh = mesh_sphere,
+};
 
 static int seal_cone(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -124,8 +126,12 @@ static void mesh_cone(const struct pov_solid *s, const struct pov_drawing *d)
 	}
 }
 
-const struct pov_shape pov_shape_cylinder = { "cylinder", seal_cone, cone_box, cone_field, NULL, 1, cone_feature, mesh_cone };
-const struct pov_shape pov_shape_cone = { "cone", seal_cone, cone_box, cone_field, NULL, 1, cone_feature, mesh_cone };
+const struct pov_shape pov_shape_cylinder = {
+	.name = "cylinder", .seal = seal_cone, .bounds = cone_box, .field = cone_field, .slope = 1, .feature = cone_feature, .mesh = mesh_cone,
+};
+const struct pov_shape pov_shape_cone = {
+	.name = "cone", .seal = seal_cone, .bounds = cone_box, .field = cone_field, .slope = 1, .feature = cone_feature, .mesh = mesh_cone,
+};
 
 static int seal_torus(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -171,7 +177,9 @@ static void mesh_torus(const struct pov_solid *s, const struct pov_drawing *d)
 			              torus_point(t, i + 1, j, d->n));
 }
 
-const struct pov_shape pov_shape_torus = { "torus", seal_torus, torus_box, torus_field, NULL, 1, torus_feature, mesh_torus };
+const struct pov_shape pov_shape_torus = {
+	.name = "torus", .seal = seal_torus, .bounds = torus_box, .field = torus_field, .slope = 1, .feature = torus_feature, .mesh = mesh_torus,
+};
 
 static int seal_superellipsoid(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -233,5 +241,6 @@ static void mesh_superellipsoid(const struct pov_solid *s, const struct pov_draw
 			              superellipsoid_point(q, i + 1, j + 1, d->n), superellipsoid_point(q, i, j + 1, d->n));
 }
 
-const struct pov_shape pov_shape_superellipsoid = { "superellipsoid", seal_superellipsoid, superellipsoid_box, superellipsoid_field,
-	                                            superellipsoid_reach, 0, NULL, mesh_superellipsoid };
+const struct pov_shape pov_shape_superellipsoid = {
+	.name = "superellipsoid", .seal = seal_superellipsoid, .bounds = superellipsoid_box, .field = superellipsoid_field, .reach = superellipsoid_reach, .mesh = mesh_superellipsoid,
+};
