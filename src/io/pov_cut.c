@@ -4,7 +4,7 @@
 
 enum {
 	CORNERS = 16,      /* of a triangle cut by at most six planes, and more */
-	FINE = 16,         /* cuts to the thickness of a shape */
+	FINE = 12,         /* cuts to the thickness of a shape */
 	LEVELS = 16,       /* halvings at most */
 	FINEST = 400,      /* and the longest side of a shape to a cut at most */
 };
