@@ -7,11 +7,11 @@
 
 /* Where the triangles of a shape go: through 'place' into 'out', with 'material'; 'turn' where place mirrors or the inside is out.
  * n: segments of a full circle. region: finite box, in the shape's space, beyond which no surface is wanted (it may go beyond).
- * plain: materials of single triangles do not count. scratch: for working space. */
+ * plain: materials of single triangles do not count. even: long and narrow facets are to be avoided, for these will be cut. scratch: for working space. */
 struct pov_drawing {
 	struct pov_facets *out;
 	const struct matrix *place;
-	bool turn, plain;
+	bool turn, plain, even;
 	uint32_t material;
 	int n;
 	struct box region;
@@ -20,6 +20,9 @@ struct pov_drawing {
 
 /* One triangle, counter-clockwise seen from outside. */
 void pov_draw(const struct pov_drawing *d, struct vec a, struct vec b, struct vec c);
+
+/* In how many parts to draw what is 'length' long in facets 'width' wide: 1 but where they are to be even. */
+int pov_draw_rows(const struct pov_drawing *d, double length, double width);
 
 /* The quadrilateral as two triangles. */
 void pov_draw_quad(const struct pov_drawing *d, struct vec a, struct vec b, struct vec c, struct vec e);

@@ -32,19 +32,34 @@ static double box_field(const struct pov_solid *s, struct vec p)
 	return f;
 }
 
+/* Part (i, j) of a face. */
+static void draw_face(const struct vec *c, const struct pov_drawing *d, int axis, int side, int u, int v, const int *rows, int i, int j)
+{
+	struct vec p[4];
+	for (int k = 0; k < 4; k++) {
+		int at[2] = { i + (k == 1 || k == 2), j + (k >= 2) }, along[2] = { u, v };
+		p[k].a[axis] = c[side].a[axis];
+		for (int b = 0; b < 2; b++) {
+			double lo = c[0].a[along[b]], hi = c[1].a[along[b]];
+			p[k].a[along[b]] = at[b] == rows[along[b]] ? hi : lo + (hi - lo) * at[b] / rows[along[b]];
+		}
+	}
+	pov_draw_quad(d, p[0], p[1], p[2], p[3]);
+}
+
 static void mesh_box(const struct pov_solid *s, const struct pov_drawing *d)
 {
 	const struct vec *c = s->shape.box.corner;
+	struct vec size = vec_sub(c[1], c[0]);
+	int rows[3];
+	for (int axis = 0; axis < 3; axis++)
+		rows[axis] = pov_draw_rows(d, size.a[axis], fmin(size.x, fmin(size.y, size.z)));
 	for (int axis = 0; axis < 3; axis++)
 		for (int side = 0; side < 2; side++) {
-			struct vec p[4];
-			int u = (axis + 1) % 3, v = (axis + 2) % 3;
-			for (int k = 0; k < 4; k++) {
-				p[k].a[axis] = c[side].a[axis];
-				p[k].a[side ? u : v] = c[k == 1 || k == 2].a[side ? u : v];
-				p[k].a[side ? v : u] = c[k >= 2].a[side ? v : u];
-			}
-			pov_draw_quad(d, p[0], p[1], p[2], p[3]);
+			int u = (axis + (side ? 1 : 2)) % 3, v = (axis + (side ? 2 : 1)) % 3;
+			for (int i = 0; i < rows[u]; i++)
+				for (int j = 0; j < rows[v]; j++)
+					draw_face(c, d, axis, side, u, v, rows, i, j);
 		}
 }
 

@@ -90,12 +90,16 @@ static void draw_caps(void *context, const double a[2], const double b[2], const
 
 static void draw_walls(const struct pov_solid *s, const struct pov_drawing *d, const struct pov_outline *o, double low, double high)
 {
+	int rows = pov_draw_rows(d, high - low, outline_thickness(o) / 2);
 	for (size_t l = 0; l < o->loops; l++)
 		for (size_t i = o->first[l]; i < o->first[l + 1]; i++) {
 			size_t next = pov_outline_next(o, l, i);
 			bool left = pov_outline_inside_left(o, i, next);
 			const double *a = o->at[left ? next : i], *b = o->at[left ? i : next];
-			pov_draw_quad(d, wall_point(s, a, low), wall_point(s, b, low), wall_point(s, b, high), wall_point(s, a, high));
+			for (int k = 0; k < rows; k++) {
+				double from = low + (high - low) * k / rows, to = k + 1 < rows ? low + (high - low) * (k + 1) / rows : high;
+				pov_draw_quad(d, wall_point(s, a, from), wall_point(s, b, from), wall_point(s, b, to), wall_point(s, a, to));
+			}
 		}
 }
 

@@ -103,10 +103,24 @@ static double cone_feature(const struct pov_solid *s)
 	return fmin(2 * fmax(c->radius[0], c->radius[1]), 2 * vec_length(vec_sub(c->end[1], c->end[0])));
 }
 
+static struct vec between(const struct vec *p, int i, int n)
+{
+	return i == 0 ? p[0] : i == n ? p[1] : vec_add(p[0], vec_scale(vec_sub(p[1], p[0]), (double)i / n));
+}
+
+/* Between two lines from the one end to the other. */
+static void draw_side(const struct pov_drawing *d, const struct vec *p, const struct vec *q, int rows)
+{
+	for (int i = 0; i < rows; i++)
+		pov_draw_quad(d, between(p, i, rows), between(q, i, rows), between(q, i + 1, rows), between(p, i + 1, rows));
+}
+
 static void mesh_cone(const struct pov_solid *s, const struct pov_drawing *d)
 {
 	const struct pov_cone *c = &s->shape.cone;
 	struct vec u, v, before[2] = { c->end[0], c->end[1] };
+	double width = 2 * pi / d->n * fmax(c->radius[0], c->radius[1]);
+	int rows = pov_draw_rows(d, vec_length(vec_sub(c->end[1], c->end[0])), width);
 	pov_place_frame(vec_unit(vec_sub(c->end[1], c->end[0])), &u, &v);
 	for (int j = 0; j <= d->n; j++) {
 		double a, b;
@@ -115,7 +129,7 @@ static void mesh_cone(const struct pov_solid *s, const struct pov_drawing *d)
 		for (int k = 0; k < 2; k++)
 			here[k] = vec_add(c->end[k], vec_scale(out, c->radius[k]));
 		if (j > 0) {
-			pov_draw_quad(d, before[0], here[0], here[1], before[1]);
+			draw_side(d, before, here, rows);
 			if (!s->open) {
 				pov_draw(d, c->end[0], here[0], before[0]);
 				pov_draw(d, c->end[1], before[1], here[1]);

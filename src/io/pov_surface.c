@@ -94,7 +94,7 @@ static void draw_leaf(struct pov_surface *s, struct pov_term *t, const struct bo
 	bool endless = !box_is_finite(&t->extent);
 	struct box world = box_common(within, &t->bound), local;
 	struct pov_drawing d = { .out = out, .place = &t->place, .turn = turned != (pov_place_determinant(&t->place) < 0),
-		                 .material = t->material, .plain = s->plain, .n = segments(s, t), .scratch = s->scratch };
+		                 .material = t->material, .plain = s->plain, .even = s->even, .n = segments(s, t), .scratch = s->scratch };
 	local = pov_place_box(&world, &t->back);
 	d.region = local;
 	if (endless && box_is_empty(&world))
@@ -113,6 +113,26 @@ static void draw_leaf(struct pov_surface *s, struct pov_term *t, const struct bo
 		refine_sphere(s, t, &whole, out);
 	}
 	pov_facets_free(&whole);
+}
+
+/* Whether the term cuts other than along planes. */
+static bool is_bent(const struct pov_term *t)
+{
+	if (t->kind == TERM_LEAF)
+		return t->half_count == 0 && pov_shape_has_inside(t->shape);
+	for (const struct pov_term *c = t->child; c; c = c->next)
+		if (is_bent(c))
+			return true;
+	return false;
+}
+
+/* How many of the parts are bent, which decides whether the others are drawn evenly. */
+static int count_bent(const struct pov_term *t)
+{
+	int n = 0;
+	for (const struct pov_term *c = t->child; c; c = c->next)
+		n += is_bent(c);
+	return n;
 }
 
 static void turn_facets(struct pov_facets *f)
@@ -138,10 +158,13 @@ static void keep(const struct pov_surface *s, struct pov_facets *f, struct pov_t
  * that is not turned are turned for the cut. */
 static void collect_exact(struct pov_surface *s, struct pov_term *t, const struct box *within, bool turned, struct pov_facets *out)
 {
+	int bent = count_bent(t);
 	for (struct pov_term *c = t->child; c; c = c->next) {
 		struct pov_facets part = open_facets(out);
-		bool inverse = t->inverse;
+		bool inverse = t->inverse, even = s->even;
+		s->even = even || bent > is_bent(c);
 		collect(s, c, within, turned, &part);
+		s->even = even;
 		if (!turned)
 			turn_facets(&part);
 		t->inverse = false;
@@ -159,9 +182,13 @@ static void collect_exact(struct pov_surface *s, struct pov_term *t, const struc
 static void collect_meet(struct pov_surface *s, struct pov_term *t, const struct box *within, bool turned, struct pov_facets *out)
 {
 	struct box here = box_common(within, &t->box);
+	int bent = count_bent(t);
 	for (struct pov_term *c = t->child; c && !box_is_empty(&here); c = c->next) {
 		struct pov_facets part = open_facets(out);
+		bool even = s->even;
+		s->even = even || bent > is_bent(c);
 		collect(s, c, &here, turned, &part);
+		s->even = even;
 		if (turned)
 			turn_facets(&part);
 		for (int pass = 0; pass < 2; pass++)
