@@ -5,9 +5,11 @@ BUILD   := build/$(if $(SAN),$(subst $(comma),-,$(SAN)),plain)
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
 CF       = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(OPT) -g -ffp-contract=off -pthread -Isrc -I. \
            $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all) $(CFLAGS)
-LIBS    := -lyaml -lpng -lz -lm
+# Libraries that are used where they are installed: fonts, and JPEG images, of POV-Ray scenes.
+FOUND   := $(foreach p,freetype2 libjpeg,$(shell pkg-config --exists $p 2>/dev/null && echo $p))
+LIBS    := -lyaml -lpng -lz -lm $(foreach p,$(FOUND),$(shell pkg-config --libs $p))
 FLOORS  := base geom scene spd io accel cost trace batch report cli
-PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev gnuplot-nox
+PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev gnuplot-nox pkg-config libfreetype-dev libjpeg-dev
 VERSION := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
 
 OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c))
@@ -66,6 +68,13 @@ $(BUILD)/tests/bench.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	$(CC) $(CF) -MMD -MP -c $< -o $@
+
+ifneq ($(filter freetype2,$(FOUND)),)
+$(BUILD)/src/io/pov_font.o: CFLAGS += -DHAVE_FREETYPE $(shell pkg-config --cflags freetype2)
+endif
+ifneq ($(filter libjpeg,$(FOUND)),)
+$(BUILD)/src/io/pov_image.o: CFLAGS += -DHAVE_JPEG $(shell pkg-config --cflags libjpeg)
+endif
 
 # The version is looked up at every build, but main is compiled anew only when it changed.
 $(BUILD)/src/main.o: CFLAGS += -DVERSION='"$(VERSION)"'

@@ -17,7 +17,7 @@ void pov_facets_add(struct pov_facets *f, const struct vec *v, uint32_t material
 		return;
 	}
 	if (f->count == f->room) {
-		size_t room = f->room ? 2 * f->room : 64;
+		size_t room = f->room ? 2 * f->room : 16;
 		struct pov_facet *grown = realloc(f->all, room * sizeof *grown);
 		if (!grown) {
 			f->lost = true;

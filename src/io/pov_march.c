@@ -79,7 +79,7 @@ static void part_tetrahedron(const struct grid *g, const struct corner *const *c
 		struct vec p = crossing(g, c[0], c[2]), q = crossing(g, c[0], c[3]), r = crossing(g, c[1], c[3]), s = crossing(g, c[1], c[2]);
 		pov_draw_quad(g->d, p, q, r, s);
 	} else {
-		pov_draw(g->d, crossing(g, c[0], c[3]), crossing(g, c[2], c[3]), crossing(g, c[1], c[3]));
+		pov_draw(g->d, crossing(g, c[0], c[3]), crossing(g, c[1], c[3]), crossing(g, c[2], c[3]));
 	}
 }
 

@@ -1,5 +1,7 @@
 #include "io/pov_shape.h"
 
+enum { ROWS_MOST = 32 };
+
 static int seal_unknown(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
 	(void)a;
@@ -58,6 +60,11 @@ const char *pov_kind_name(enum pov_kind kind)
 	return shapes[kind]->name;
 }
 
+bool pov_shape_has_inside(const struct pov_solid *s)
+{
+	return pov_shape_of(s)->field && (s->kind != POV_MESH || vec_length(s->shape.mesh.inside) > 0);
+}
+
 double pov_shape_reach(const struct pov_solid *s, struct vec p, double r)
 {
 	const struct pov_shape *shape = pov_shape_of(s);
@@ -68,6 +75,11 @@ void pov_draw(const struct pov_drawing *d, struct vec a, struct vec b, struct ve
 {
 	struct vec v[3] = { matrix_point(a, d->place), matrix_point(d->turn ? c : b, d->place), matrix_point(d->turn ? b : c, d->place) };
 	pov_facets_add(d->out, v, d->material);
+}
+
+int pov_draw_rows(const struct pov_drawing *d, double length, double width)
+{
+	return d->even ? (int)fmax(1, fmin(ROWS_MOST, ceil(length / (2 * width) - 1e-9))) : 1;
 }
 
 void pov_draw_quad(const struct pov_drawing *d, struct vec a, struct vec b, struct vec c, struct vec e)

@@ -7,11 +7,11 @@
 
 /* Where the triangles of a shape go: through 'place' into 'out', with 'material'; 'turn' where place mirrors or the inside is out.
  * n: segments of a full circle. region: finite box, in the shape's space, beyond which no surface is wanted (it may go beyond).
- * scratch: for working space. */
+ * plain: materials of single triangles do not count. even: long and narrow facets are to be avoided, for these will be cut. scratch: for working space. */
 struct pov_drawing {
 	struct pov_facets *out;
 	const struct matrix *place;
-	bool turn;
+	bool turn, plain, even;
 	uint32_t material;
 	int n;
 	struct box region;
@@ -20,6 +20,9 @@ struct pov_drawing {
 
 /* One triangle, counter-clockwise seen from outside. */
 void pov_draw(const struct pov_drawing *d, struct vec a, struct vec b, struct vec c);
+
+/* In how many parts to draw what is 'length' long in facets 'width' wide: 1 but where they are to be even. */
+int pov_draw_rows(const struct pov_drawing *d, double length, double width);
 
 /* The quadrilateral as two triangles. */
 void pov_draw_quad(const struct pov_drawing *d, struct vec a, struct vec b, struct vec c, struct vec e);
@@ -31,7 +34,7 @@ struct pov_shape {
 	 * it, for the reason in *why. */
 	int (*seal)(struct arena *a, struct pov_solid *s, const char **why, struct err *e);
 
-	/* A box about the shape and its inside; infinite sides where it is unbounded. */
+	/* A box about the surface; infinite sides where it is unbounded. */
 	struct box (*bounds)(const struct pov_solid *s);
 
 	/* Below 0 inside, above 0 outside, 0 on the surface. NULL: the shape has no inside. */
@@ -46,9 +49,21 @@ struct pov_shape {
 
 	/* Its surface; memory that cannot be had sets out->lost. */
 	void (*mesh)(const struct pov_solid *s, const struct pov_drawing *d);
+
+	/* A box about the inside, where it reaches further than the surface; else NULL. */
+	struct box (*filled)(const struct pov_solid *s);
 };
 
 const struct pov_shape *pov_shape_of(const struct pov_solid *s);
+
+/* Whether the shape has an inside: a mesh only with an inside_vector. */
+bool pov_shape_has_inside(const struct pov_solid *s);
+
+/* The container of an isosurface or parametric surface as a solid of its own; false where there is none. */
+bool pov_shape_container(const struct pov_solid *s, struct pov_solid *container);
+
+/* A box about the surface of the placed shape. */
+struct box pov_shape_placed(const struct pov_solid *s, const struct matrix *place);
 
 double pov_shape_reach(const struct pov_solid *s, struct vec p, double r);
 

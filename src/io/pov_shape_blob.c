@@ -135,4 +135,6 @@ static void mesh_blob(const struct pov_solid *s, const struct pov_drawing *d)
 	pov_march(s, &q->box, fmax(step, box_longest(&q->box) / CELLS_MOST), d);
 }
 
-const struct pov_shape pov_shape_blob = { "blob", seal_blob, blob_bounds, blob_field, blob_reach, 0, blob_feature, mesh_blob };
+const struct pov_shape pov_shape_blob = {
+	.name = "blob", .seal = seal_blob, .bounds = blob_bounds, .field = blob_field, .reach = blob_reach, .feature = blob_feature, .mesh = mesh_blob,
+};

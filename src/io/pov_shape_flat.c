@@ -32,23 +32,40 @@ static double box_field(const struct pov_solid *s, struct vec p)
 	return f;
 }
 
+/* Part (i, j) of a face. */
+static void draw_face(const struct vec *c, const struct pov_drawing *d, int axis, int side, int u, int v, const int *rows, int i, int j)
+{
+	struct vec p[4];
+	for (int k = 0; k < 4; k++) {
+		int at[2] = { i + (k == 1 || k == 2), j + (k >= 2) }, along[2] = { u, v };
+		p[k].a[axis] = c[side].a[axis];
+		for (int b = 0; b < 2; b++) {
+			double lo = c[0].a[along[b]], hi = c[1].a[along[b]];
+			p[k].a[along[b]] = at[b] == rows[along[b]] ? hi : lo + (hi - lo) * at[b] / rows[along[b]];
+		}
+	}
+	pov_draw_quad(d, p[0], p[1], p[2], p[3]);
+}
+
 static void mesh_box(const struct pov_solid *s, const struct pov_drawing *d)
 {
 	const struct vec *c = s->shape.box.corner;
+	struct vec size = vec_sub(c[1], c[0]);
+	int rows[3];
+	for (int axis = 0; axis < 3; axis++)
+		rows[axis] = pov_draw_rows(d, size.a[axis], fmin(size.x, fmin(size.y, size.z)));
 	for (int axis = 0; axis < 3; axis++)
 		for (int side = 0; side < 2; side++) {
-			struct vec p[4];
-			int u = (axis + 1) % 3, v = (axis + 2) % 3;
-			for (int k = 0; k < 4; k++) {
-				p[k].a[axis] = c[side].a[axis];
-				p[k].a[side ? u : v] = c[k == 1 || k == 2].a[side ? u : v];
-				p[k].a[side ? v : u] = c[k >= 2].a[side ? v : u];
-			}
-			pov_draw_quad(d, p[0], p[1], p[2], p[3]);
+			int u = (axis + (side ? 1 : 2)) % 3, v = (axis + (side ? 2 : 1)) % 3;
+			for (int i = 0; i < rows[u]; i++)
+				for (int j = 0; j < rows[v]; j++)
+					draw_face(c, d, axis, side, u, v, rows, i, j);
 		}
 }
 
-const struct pov_shape pov_shape_box = { "box", seal_box, box_bounds, box_field, NULL, 1, NULL, mesh_box };
+const struct pov_shape pov_shape_box = {
+	.name = "box", .seal = seal_box, .bounds = box_bounds, .field = box_field, .slope = 1, .mesh = mesh_box,
+};
 
 static int seal_plane(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -94,7 +111,9 @@ static void mesh_plane(const struct pov_solid *s, const struct pov_drawing *d)
 		pov_draw(d, p.corner[0], p.corner[i - 1], p.corner[i]);
 }
 
-const struct pov_shape pov_shape_plane = { "plane", seal_plane, plane_bounds, plane_field, NULL, 1, NULL, mesh_plane };
+const struct pov_shape pov_shape_plane = {
+	.name = "plane", .seal = seal_plane, .bounds = plane_bounds, .field = plane_field, .slope = 1, .mesh = mesh_plane,
+};
 
 static int seal_disc(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -121,6 +140,12 @@ static double disc_field(const struct pov_solid *s, struct vec p)
 	return vec_dot(s->shape.disc.normal, vec_sub(p, s->shape.disc.center));
 }
 
+static struct box disc_filled(const struct pov_solid *s)
+{
+	(void)s;
+	return box_infinite();
+}
+
 static void mesh_disc(const struct pov_solid *s, const struct pov_drawing *d)
 {
 	const struct pov_disc *q = &s->shape.disc;
@@ -137,7 +162,9 @@ static void mesh_disc(const struct pov_solid *s, const struct pov_drawing *d)
 	}
 }
 
-const struct pov_shape pov_shape_disc = { "disc", seal_disc, disc_bounds, disc_field, NULL, 1, NULL, mesh_disc };
+const struct pov_shape pov_shape_disc = {
+	.name = "disc", .seal = seal_disc, .bounds = disc_bounds, .field = disc_field, .slope = 1, .mesh = mesh_disc, .filled = disc_filled,
+};
 
 /* A polygon's plane as a frame, and its loops there. */
 struct flat {
@@ -227,7 +254,9 @@ static void mesh_polygon(const struct pov_solid *s, const struct pov_drawing *d)
 		d->out->lost = true;
 }
 
-const struct pov_shape pov_shape_polygon = { "polygon", seal_polygon, polygon_bounds, NULL, NULL, 0, NULL, mesh_polygon };
+const struct pov_shape pov_shape_polygon = {
+	.name = "polygon", .seal = seal_polygon, .bounds = polygon_bounds, .mesh = mesh_polygon,
+};
 
 static struct box bicubic_bounds(const struct pov_solid *s)
 {
@@ -261,4 +290,6 @@ static void mesh_bicubic(const struct pov_solid *s, const struct pov_drawing *d)
 		}
 }
 
-const struct pov_shape pov_shape_bicubic = { "bicubic_patch", NULL, bicubic_bounds, NULL, NULL, 0, NULL, mesh_bicubic };
+const struct pov_shape pov_shape_bicubic = {
+	.name = "bicubic_patch", .bounds = bicubic_bounds, .mesh = mesh_bicubic,
+};

@@ -52,14 +52,19 @@ static double hill_height(const struct pov_height_field *h, double x, double z)
 	return u + v <= 1 ? a + u * (b - a) + v * (c - a) : d + (1 - u) * (c - d) + (1 - v) * (b - d);
 }
 
-/* What lies under the surface, over the water level (or the lowest point) and over the square. */
+/* All that lies under the surface, however deep. */
+static struct box height_field_filled(const struct pov_solid *s)
+{
+	struct box b = height_field_bounds(s);
+	b.lo.y = -INFINITY;
+	return b;
+}
+
 static double height_field_field(const struct pov_solid *s, struct vec p)
 {
-	const struct pov_height_field *h = &s->shape.height_field;
-	struct box b = height_field_bounds(s);
 	double x = fmin(1, fmax(0, p.x)), z = fmin(1, fmax(0, p.z));
 	double aside = fmax(fmax(-p.x, p.x - 1), fmax(-p.z, p.z - 1));
-	return fmax(fmax(p.y - hill_height(h, x, z), b.lo.y - p.y), aside);
+	return fmax(p.y - hill_height(&s->shape.height_field, x, z), aside);
 }
 
 static double height_field_reach(const struct pov_solid *s, struct vec p, double r)
@@ -100,8 +105,9 @@ static void mesh_height_field(const struct pov_solid *s, const struct pov_drawin
 		}
 }
 
-const struct pov_shape pov_shape_height_field = { "height_field", seal_height_field, height_field_bounds, height_field_field,
-	                                          height_field_reach, 0, height_field_feature, mesh_height_field };
+const struct pov_shape pov_shape_height_field = {
+	.name = "height_field", .seal = seal_height_field, .bounds = height_field_bounds, .field = height_field_field, .reach = height_field_reach, .feature = height_field_feature, .mesh = mesh_height_field, .filled = height_field_filled,
+};
 
 double *pov_heights_sample(struct arena *a, struct pov_function f, int width, int height)
 {
@@ -162,8 +168,9 @@ static void mesh_isosurface(const struct pov_solid *s, const struct pov_drawing 
 	pov_march(s, &box, box_longest(&box) / cells, d);
 }
 
-const struct pov_shape pov_shape_isosurface = { "isosurface", seal_isosurface, isosurface_bounds, isosurface_field, NULL, INFINITY, NULL,
-	                                        mesh_isosurface };
+const struct pov_shape pov_shape_isosurface = {
+	.name = "isosurface", .seal = seal_isosurface, .bounds = isosurface_bounds, .field = isosurface_field, .slope = INFINITY, .mesh = mesh_isosurface,
+};
 
 /* A parametric surface: a grid over u, v. */
 
@@ -230,4 +237,6 @@ static void mesh_parametric(const struct pov_solid *s, const struct pov_drawing 
 		}
 }
 
-const struct pov_shape pov_shape_parametric = { "parametric", seal_parametric, parametric_bounds, NULL, NULL, 0, NULL, mesh_parametric };
+const struct pov_shape pov_shape_parametric = {
+	.name = "parametric", .seal = seal_parametric, .bounds = parametric_bounds, .mesh = mesh_parametric,
+};

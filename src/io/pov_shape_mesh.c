@@ -120,9 +120,11 @@ static void mesh_mesh(const struct pov_solid *s, const struct pov_drawing *d)
 	for (size_t i = 0; i < m->count; i++) {
 		struct vec v[3];
 		corners(m, i, v);
-		own.material = m->materials && m->materials[i] != NO_MATERIAL ? m->materials[i] : d->material;
+		own.material = !d->plain && m->materials && m->materials[i] != NO_MATERIAL ? m->materials[i] : d->material;
 		pov_draw(&own, v[0], v[1], v[2]);
 	}
 }
 
-const struct pov_shape pov_shape_mesh = { "mesh", seal_mesh, mesh_bounds, mesh_field, NULL, INFINITY, NULL, mesh_mesh };
+const struct pov_shape pov_shape_mesh = {
+	.name = "mesh", .seal = seal_mesh, .bounds = mesh_bounds, .field = mesh_field, .slope = INFINITY, .mesh = mesh_mesh,
+};

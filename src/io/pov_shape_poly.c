@@ -2,7 +2,10 @@
 #include "io/pov_march.h"
 #include "io/pov_poly.h"
 
-enum { ORDER_MOST = 35, CELLS = 60, TIGHTENINGS = 4 };
+enum { ORDER_MOST = 35, TIGHTENINGS = 4 };
+
+/* Cells across the box: along its longest side at least and at most, along its shortest at least. */
+enum { QUADRIC_CELLS = 24, POLY_CELLS = 60, ACROSS = 12, CELLS_MOST = 240 };
 
 struct term {
 	double c;
@@ -161,26 +164,36 @@ struct box pov_quadric_tighten(const struct pov_solid *s, bool inverse, const st
 	return b;
 }
 
+static double find_step(const struct pov_solid *s, const struct box *b, int n)
+{
+	struct vec side = vec_sub(b->hi, b->lo);
+	double least = fmin(side.x, fmin(side.y, side.z)), most = box_longest(b);
+	double step = fmin(least / ACROSS, most / (s->kind == POV_QUADRIC ? QUADRIC_CELLS : POLY_CELLS));
+	return fmax(step * 32 / n, most / CELLS_MOST);
+}
+
 /* Look where the surface is, closer and closer, then make it there. */
 static void mesh_poly(const struct pov_solid *s, const struct pov_drawing *d)
 {
 	struct box own = pov_shape_of(s)->bounds(s), box = box_common(&own, &d->region);
-	double cells = CELLS * d->n / 32.0;
-	box = box_enlarge(&box, box_longest(&box) / cells);
 	for (int i = 0; i < TIGHTENINGS && !box_is_empty(&box); i++) {
-		double step = box_longest(&box) / cells;
-		struct box found = pov_march_extent(s, &box, step), wide = box_enlarge(&found, step);
+		double step = find_step(s, &box, d->n);
+		struct box seen = box_enlarge(&box, step), found = pov_march_extent(s, &seen, step), wide = box_enlarge(&found, step);
 		if (box_is_empty(&found))
-			break;
-		found = box_common(&wide, &box);
+			return;
+		found = box_common(&wide, &seen);
 		bool enough = box_longest(&found) > 0.7 * box_longest(&box);
 		box = found;
 		if (enough)
 			break;
 	}
 	if (!box_is_empty(&box))
-		pov_march(s, &box, box_longest(&box) / cells, d);
+		pov_march(s, &box, find_step(s, &box, d->n), d);
 }
 
-const struct pov_shape pov_shape_quadric = { "quadric", seal_quadric, quadric_bounds, poly_field, poly_reach, 0, NULL, mesh_poly };
-const struct pov_shape pov_shape_poly = { "poly", seal_poly, poly_bounds, poly_field, poly_reach, 0, NULL, mesh_poly };
+const struct pov_shape pov_shape_quadric = {
+	.name = "quadric", .seal = seal_quadric, .bounds = quadric_bounds, .field = poly_field, .reach = poly_reach, .mesh = mesh_poly,
+};
+const struct pov_shape pov_shape_poly = {
+	.name = "poly", .seal = seal_poly, .bounds = poly_bounds, .field = poly_field, .reach = poly_reach, .mesh = mesh_poly,
+};

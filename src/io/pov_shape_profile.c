@@ -90,12 +90,16 @@ static void draw_caps(void *context, const double a[2], const double b[2], const
 
 static void draw_walls(const struct pov_solid *s, const struct pov_drawing *d, const struct pov_outline *o, double low, double high)
 {
+	int rows = pov_draw_rows(d, high - low, outline_thickness(o) / 2);
 	for (size_t l = 0; l < o->loops; l++)
 		for (size_t i = o->first[l]; i < o->first[l + 1]; i++) {
 			size_t next = pov_outline_next(o, l, i);
 			bool left = pov_outline_inside_left(o, i, next);
 			const double *a = o->at[left ? next : i], *b = o->at[left ? i : next];
-			pov_draw_quad(d, wall_point(s, a, low), wall_point(s, b, low), wall_point(s, b, high), wall_point(s, a, high));
+			for (int k = 0; k < rows; k++) {
+				double from = low + (high - low) * k / rows, to = k + 1 < rows ? low + (high - low) * (k + 1) / rows : high;
+				pov_draw_quad(d, wall_point(s, a, from), wall_point(s, b, from), wall_point(s, b, to), wall_point(s, a, to));
+			}
 		}
 }
 
@@ -180,7 +184,9 @@ static void mesh_prism(const struct pov_solid *s, const struct pov_drawing *d)
 		extrude(s, d, &o, p->low, p->high);
 }
 
-const struct pov_shape pov_shape_prism = { "prism", seal_prism, sealed_box, prism_field, prism_reach, 0, sealed_feature, mesh_prism };
+const struct pov_shape pov_shape_prism = {
+	.name = "prism", .seal = seal_prism, .bounds = sealed_box, .field = prism_field, .reach = prism_reach, .feature = sealed_feature, .mesh = mesh_prism,
+};
 
 static int seal_text(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -219,7 +225,9 @@ static void mesh_text(const struct pov_solid *s, const struct pov_drawing *d)
 		extrude(s, d, &q->outlines[i], q->box.lo.z, q->box.hi.z);
 }
 
-const struct pov_shape pov_shape_text = { "text", seal_text, sealed_box, text_field, NULL, 1, sealed_feature, mesh_text };
+const struct pov_shape pov_shape_text = {
+	.name = "text", .seal = seal_text, .bounds = sealed_box, .field = text_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_text,
+};
 
 /* About an axis. */
 
@@ -339,5 +347,9 @@ static void mesh_turned(const struct pov_solid *s, const struct pov_drawing *d)
 	}
 }
 
-const struct pov_shape pov_shape_lathe = { "lathe", seal_turned, sealed_box, turned_field, NULL, 1, sealed_feature, mesh_turned };
-const struct pov_shape pov_shape_sor = { "sor", seal_turned, sealed_box, turned_field, NULL, 1, sealed_feature, mesh_turned };
+const struct pov_shape pov_shape_lathe = {
+	.name = "lathe", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_turned,
+};
+const struct pov_shape pov_shape_sor = {
+	.name = "sor", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_turned,
+};

@@ -56,7 +56,9 @@ static void mesh_sphere(const struct pov_solid *s, const struct pov_drawing *d)
 			              sphere_point(&s->shape.sphere, i + 1, rows, j + 1, n), sphere_point(&s->shape.sphere, i, rows, j + 1, n));
 }
 
-const struct pov_shape pov_shape_sphere = { "sphere", seal_sphere, sphere_box, sphere_field, NULL, 1, NULL, mesh_sphere };
+const struct pov_shape pov_shape_sphere = {
+	.name = "sphere", .seal = seal_sphere, .bounds = sphere_box, .field = sphere_field, .slope = 1, .mesh = mesh_sphere,
+};
 
 static int seal_cone(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -101,10 +103,24 @@ static double cone_feature(const struct pov_solid *s)
 	return fmin(2 * fmax(c->radius[0], c->radius[1]), 2 * vec_length(vec_sub(c->end[1], c->end[0])));
 }
 
+static struct vec between(const struct vec *p, int i, int n)
+{
+	return i == 0 ? p[0] : i == n ? p[1] : vec_add(p[0], vec_scale(vec_sub(p[1], p[0]), (double)i / n));
+}
+
+/* Between two lines from the one end to the other. */
+static void draw_side(const struct pov_drawing *d, const struct vec *p, const struct vec *q, int rows)
+{
+	for (int i = 0; i < rows; i++)
+		pov_draw_quad(d, between(p, i, rows), between(q, i, rows), between(q, i + 1, rows), between(p, i + 1, rows));
+}
+
 static void mesh_cone(const struct pov_solid *s, const struct pov_drawing *d)
 {
 	const struct pov_cone *c = &s->shape.cone;
 	struct vec u, v, before[2] = { c->end[0], c->end[1] };
+	double width = 2 * pi / d->n * fmax(c->radius[0], c->radius[1]);
+	int rows = pov_draw_rows(d, vec_length(vec_sub(c->end[1], c->end[0])), width);
 	pov_place_frame(vec_unit(vec_sub(c->end[1], c->end[0])), &u, &v);
 	for (int j = 0; j <= d->n; j++) {
 		double a, b;
@@ -113,7 +129,7 @@ static void mesh_cone(const struct pov_solid *s, const struct pov_drawing *d)
 		for (int k = 0; k < 2; k++)
 			here[k] = vec_add(c->end[k], vec_scale(out, c->radius[k]));
 		if (j > 0) {
-			pov_draw_quad(d, before[0], here[0], here[1], before[1]);
+			draw_side(d, before, here, rows);
 			if (!s->open) {
 				pov_draw(d, c->end[0], here[0], before[0]);
 				pov_draw(d, c->end[1], before[1], here[1]);
@@ -124,8 +140,12 @@ static void mesh_cone(const struct pov_solid *s, const struct pov_drawing *d)
 	}
 }
 
-const struct pov_shape pov_shape_cylinder = { "cylinder", seal_cone, cone_box, cone_field, NULL, 1, cone_feature, mesh_cone };
-const struct pov_shape pov_shape_cone = { "cone", seal_cone, cone_box, cone_field, NULL, 1, cone_feature, mesh_cone };
+const struct pov_shape pov_shape_cylinder = {
+	.name = "cylinder", .seal = seal_cone, .bounds = cone_box, .field = cone_field, .slope = 1, .feature = cone_feature, .mesh = mesh_cone,
+};
+const struct pov_shape pov_shape_cone = {
+	.name = "cone", .seal = seal_cone, .bounds = cone_box, .field = cone_field, .slope = 1, .feature = cone_feature, .mesh = mesh_cone,
+};
 
 static int seal_torus(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -171,7 +191,9 @@ static void mesh_torus(const struct pov_solid *s, const struct pov_drawing *d)
 			              torus_point(t, i + 1, j, d->n));
 }
 
-const struct pov_shape pov_shape_torus = { "torus", seal_torus, torus_box, torus_field, NULL, 1, torus_feature, mesh_torus };
+const struct pov_shape pov_shape_torus = {
+	.name = "torus", .seal = seal_torus, .bounds = torus_box, .field = torus_field, .slope = 1, .feature = torus_feature, .mesh = mesh_torus,
+};
 
 static int seal_superellipsoid(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
@@ -233,5 +255,6 @@ static void mesh_superellipsoid(const struct pov_solid *s, const struct pov_draw
 			              superellipsoid_point(q, i + 1, j + 1, d->n), superellipsoid_point(q, i, j + 1, d->n));
 }
 
-const struct pov_shape pov_shape_superellipsoid = { "superellipsoid", seal_superellipsoid, superellipsoid_box, superellipsoid_field,
-	                                            superellipsoid_reach, 0, NULL, mesh_superellipsoid };
+const struct pov_shape pov_shape_superellipsoid = {
+	.name = "superellipsoid", .seal = seal_superellipsoid, .bounds = superellipsoid_box, .field = superellipsoid_field, .reach = superellipsoid_reach, .mesh = mesh_superellipsoid,
+};

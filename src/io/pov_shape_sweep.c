@@ -209,5 +209,6 @@ static void mesh_sweep(const struct pov_solid *s, const struct pov_drawing *d)
 			draw_straight(d, &along[i].at, &along[i + 1].at);
 }
 
-const struct pov_shape pov_shape_sphere_sweep = { "sphere_sweep", seal_sweep, sweep_bounds, sweep_field, NULL, 1, sweep_feature,
-	                                          mesh_sweep };
+const struct pov_shape pov_shape_sphere_sweep = {
+	.name = "sphere_sweep", .seal = seal_sweep, .bounds = sweep_bounds, .field = sweep_field, .slope = 1, .feature = sweep_feature, .mesh = mesh_sweep,
+};

@@ -231,12 +231,12 @@ struct pov_solid *pov_solid_copy(struct arena *a, const struct pov_solid *s);
 /* POV-Ray's inside(): whether the point is in the solid and in all its clips. Shapes without an inside have none. */
 bool pov_solid_inside(const struct pov_solid *s, struct vec p);
 
-/* POV-Ray's min_extent and max_extent: a box about the solid, as tight as is simply had; infinite sides are +-1e7 (BOUND_HUGE), as
- * there. */
+/* POV-Ray's min_extent and max_extent: a box about the solid, as tight as is simply had; infinite sides are +-1e10.
+ * Clips and bounds do not count, nor what a difference takes away, as there. */
 struct box pov_solid_extent(const struct pov_solid *s);
 
 /* POV-Ray's trace(): the first point of the surface on the ray from 'from' along 'toward' (any length), by the surface pov_mesh makes
- * at the default resolution; normal: unit, toward the ray's start. The mesh is made at the first call and kept in the arena with
+ * at the default resolution; normal: unit, outward (inward of what is inverse), as there. The mesh is made at the first call and kept in the arena with
  * the node, so trace before moving on, not after changing the shape. false: a miss, *at and *normal zero; memory out is a miss. */
 bool pov_solid_trace(struct arena *a, struct pov_solid *s, struct vec from, struct vec toward, struct vec *at, struct vec *normal);
 

@@ -1,0 +1,26 @@
+/* Lists of triangles cut by solids. */
+#ifndef IO_POV_CUT_H
+#define IO_POV_CUT_H
+
+#include "io/pov_term.h"
+
+/* How finely curved solids cut: region: of all that is meshed, for the size of what is unbounded; n: segments of a full circle. */
+struct pov_cutter {
+	struct box region;
+	int n;
+};
+
+/* Add the parts of the triangles that are inside the term to 'in', the others to 'out'; either may be NULL, where its part is not wanted.
+ * except: a part of the term that is left out, or NULL (one child of a union against its siblings).
+ *
+ * A union or intersection is cut by one part after the other, so that only shapes ever cut. Half spaces cut exactly; a triangle in
+ * their plane is inside if it faces the same way. Other shapes: edges whose surroundings the surface may pass are halved until they are
+ * short, then cut where the field is zero. Whether an edge is halved and where it is cut depends on the edge alone, so that triangles that
+ * met before still meet. */
+void pov_cut(const struct pov_cutter *c, const struct pov_facets *list, struct pov_term *term, const struct pov_term *except,
+             struct pov_facets *in, struct pov_facets *out);
+
+/* Cut away, exactly, what is outside the box. */
+void pov_cut_box(const struct pov_facets *list, const struct box *b, struct pov_facets *in);
+
+#endif
