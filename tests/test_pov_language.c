@@ -538,7 +538,7 @@ static void bad_input(void **state)
 	refuse("/* comment\n never ends", "scenes/a.pov:1: a comment without end");
 	refuse("#debug \"never ends\n", "scenes/a.pov:1: a string without end");
 	refuse("\x01\x02", "scenes/a.pov:1: binary data (byte 0x01)");
-	refuse("#error \"give up\\n\"", "scenes/a.pov:1: the scene says: give up\\n");
+	refuse("#error \"give up\\n\"", "scenes/a.pov:1: the scene says: give up");
 	refuse("#while (1) #end", "scenes/a.pov:1: more rounds of loops than the budget of 10000000");
 	refuse("#for (I, 0, 1, 0) #end", "scenes/a.pov:1: a #for with step 0");
 	refuse("\n#macro M(A)\n Nothing + A\n#end\nlight_source { M(1), 1 }", "scenes/a.pov:3: 'Nothing' is not declared, in macro M from scenes/a.pov:5");
