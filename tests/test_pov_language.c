@@ -319,6 +319,17 @@ static void functions(void **state)
 	assert_vector("#declare F = function { transform { translate <1,2,3> scale 2 } }", "F(1, 0, 0)", 4, 4, 6);
 	assert_number("#declare V = <1,5,9>; #declare F = function(q) { q*V.y }", "F(2)", 10);
 	assert_number("#macro M(A) A + #end #declare F = function(q) { M(2) q*2 }", "F(3)", 8);
+	/* Measured with POV-Ray 3.7. */
+	assert_number("#declare F = function { internal(61) }", "F(0.7, -0.4, 1.3, 0.5)", 1.029705854078);
+	assert_number("#declare F = function { internal(70) }", "F(0.7, -0.4, 1.3, 1.1, 0.3)", 0.249307679492);
+	assert_number("#declare F = function { internal(17) }", "F(0.7, -0.4, 1.3, 2, 3, 4)", 5.517245689653);
+	assert_number("#declare F = function { internal(68) }", "F(0.7, -0.4, 1.3, 0.5, 0.3)", -0.303694591322);
+	assert_number("#declare F = function { internal(45) }", "F(0.7, -0.4, 1.3, 1)", -2.58);
+	assert_number("#declare F = function { internal(47) }", "F(0.7, -0.4, 1.3)", 1.835360033848);
+	assert_number("#declare F = function { internal(69) }", "F(-0.7, -0.4, -1.3)", -2.647651284670);
+	assert_number("#declare F = function { internal(57) }", "F(0.7, -0.4, 1.3)", 1.529705854078);
+	const double box[5] = { 0.694426191, 0.694426191, 0.694426191, 0.694426191, 0.694426191 };
+	assert_value("#declare F = function { internal(60) }", "F(0.7, -0.4, 1.3, 0.2, 0.5, 0.6, 0.7)", box, 2e-6);
 	refuse("#declare F = function(q) { w*q }", "scenes/a.pov:1: 'w' is not declared");
 }
 

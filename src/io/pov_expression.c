@@ -133,6 +133,12 @@ static struct pov_value read_identifier(struct pov *p, uint32_t name)
 {
 	const struct pov_binding *b = scope_find(&p->scope, name);
 	struct pov_value nothing = value_number(0);
+	if (!b && !p->options->strict && strcmp(p->names.text[name], "nan") == 0) {
+		/* Printed by programs for the angle of what has none. */
+		pov_note(p, "'nan' is taken as 0");
+		p->summary->ignored++;
+		return nothing;
+	}
 	if (!b) {
 		pov_refuse(p, "'%.60s' is not declared", p->names.text[name]);
 		return nothing;
