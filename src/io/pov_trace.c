@@ -26,22 +26,9 @@ static void number_leaves(struct pov_traced *t, struct pov_term *term)
 		number_leaves(t, c);
 }
 
-/* Whether all that is unbounded is flat. */
-static bool is_flat(const struct pov_term *t)
+/* The part of an extent that is nearer than 'far'. */
+static struct box near_part(struct box b, double far)
 {
-	if (t->kind == TERM_LEAF && !t->half_count && !box_is_finite(&t->extent))
-		return false;
-	for (const struct pov_term *c = t->child; c; c = c->next)
-		if (!is_flat(c))
-			return false;
-	return true;
-}
-
-/* The finite part of an extent; far sides for planes, near ones for what has to be marched through. */
-static struct box trace_region(const struct pov_term *term)
-{
-	struct box b = term->extent;
-	double far = is_flat(term) ? wide : narrow;
 	for (int i = 0; i < 3; i++) {
 		b.lo.a[i] = fmax(b.lo.a[i], -far);
 		b.hi.a[i] = fmin(b.hi.a[i], far);
@@ -64,7 +51,7 @@ static struct pov_traced *make(struct arena *a, const struct pov_solid *s)
 		t->leaf_count = 0;
 		if (t->leaves)
 			number_leaves(t, term);
-		struct pov_surface surface = { .region = trace_region(term), .n = options.resolution, .plain = true, .scratch = &scratch };
+		struct pov_surface surface = { .region = near_part(term->extent, wide), .close = near_part(term->extent, narrow), .n = options.resolution, .plain = true, .scratch = &scratch };
 		surface.size = box_diagonal(&surface.region);
 		if (t->leaves && term->kind != TERM_EMPTY)
 			pov_surface(&surface, term, false, &list);
