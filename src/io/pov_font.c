@@ -87,6 +87,8 @@ static int draw_letters(FT_Face face, const struct pov_text *t, struct pov_outli
 			return 1;
 		if (i && FT_HAS_KERNING(face) && FT_Get_Kerning(face, before, glyph, FT_KERNING_UNSCALED, &kern) == 0)
 			pen.x += pen.scale * (double)kern.x;
+		if (i == 0)
+			pen.x = -pen.scale * (double)face->glyph->metrics.horiBearingX;
 		pen.outline = &outlines[i];
 		if (FT_Outline_Decompose(&face->glyph->outline, &pens, &pen) != 0)
 			return 1;

@@ -4,7 +4,9 @@
 
 #include <stdlib.h>
 
-static const double dome_ratio = 20, alone = 10; /* half the side of the region where there is nothing finite */
+/* How much larger than the rest a sky is; half the side of the region where there is nothing finite; by how much of the rest what is marched
+ * through may go beyond it. */
+static const double dome_ratio = 20, alone = 10, close_by = 0.5;
 
 struct mesher {
 	struct scene *scene;
@@ -113,9 +115,10 @@ static void set_region(struct mesher *m, struct box rest)
 	if (box_is_empty(&rest) || !(box_longest(&rest) > 0)) {
 		struct vec at = box_is_empty(&rest) ? vec(0, 0, 0) : rest.lo;
 		rest = (struct box){ at, at };
-		s->region = box_enlarge(&rest, alone);
+		s->region = s->close = box_enlarge(&rest, alone);
 	} else {
 		s->region = box_enlarge(&rest, m->options->extent * box_longest(&rest));
+		s->close = box_enlarge(&rest, fmin(close_by, m->options->extent) * box_longest(&rest));
 	}
 	if (!(s->size > 0))
 		s->size = box_diagonal(&s->region);

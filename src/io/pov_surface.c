@@ -13,8 +13,7 @@ static void collect(struct pov_surface *s, struct pov_term *t, const struct box 
 /* n sqrt(size / scene), from n / 2 to 4 n. */
 static int segments(const struct pov_surface *s, const struct pov_term *t)
 {
-	struct box seen = box_common(&t->extent, &s->region);
-	double n = box_is_empty(&seen) || !(s->size > 0) ? s->n : s->n * sqrt(box_diagonal(&seen) / s->size);
+	double n = box_is_finite(&t->extent) && s->size > 0 ? s->n * sqrt(box_diagonal(&t->extent) / s->size) : s->n;
 	n = fmin(fmax(n, s->n / 2.0), FINER_MOST * s->n);
 	return n < N_LEAST ? N_LEAST : (int)(n / 2) * 2;
 }
@@ -93,6 +92,8 @@ static void draw_leaf(struct pov_surface *s, struct pov_term *t, const struct bo
 {
 	bool endless = !box_is_finite(&t->extent);
 	struct box world = box_common(within, &t->bound), local;
+	if (endless && !t->half_count)
+		world = box_common(&world, &s->close);
 	struct pov_drawing d = { .out = out, .place = &t->place, .turn = turned != (pov_place_determinant(&t->place) < 0),
 		                 .material = t->material, .plain = s->plain, .even = s->even, .n = segments(s, t), .scratch = s->scratch };
 	local = pov_place_box(&world, &t->back);
@@ -147,7 +148,7 @@ static void turn_facets(struct pov_facets *f)
 /* What of *f is inside 'by' (outside, 'outside'). */
 static void keep(const struct pov_surface *s, struct pov_facets *f, struct pov_term *by, const struct pov_term *except, bool outside)
 {
-	struct pov_cutter cutter = { s->region, s->n };
+	struct pov_cutter cutter = { s->close, s->n };
 	struct pov_facets kept = open_facets(f);
 	pov_cut(&cutter, f, by, except, outside ? NULL : &kept, outside ? &kept : NULL);
 	pov_facets_free(f);

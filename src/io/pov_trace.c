@@ -26,22 +26,9 @@ static void number_leaves(struct pov_traced *t, struct pov_term *term)
 		number_leaves(t, c);
 }
 
-/* Whether all that is unbounded is flat. */
-static bool is_flat(const struct pov_term *t)
+/* The part of an extent that is nearer than 'far'. */
+static struct box near_part(struct box b, double far)
 {
-	if (t->kind == TERM_LEAF && !t->half_count && !box_is_finite(&t->extent))
-		return false;
-	for (const struct pov_term *c = t->child; c; c = c->next)
-		if (!is_flat(c))
-			return false;
-	return true;
-}
-
-/* The finite part of an extent; far sides for planes, near ones for what has to be marched through. */
-static struct box trace_region(const struct pov_term *term)
-{
-	struct box b = term->extent;
-	double far = is_flat(term) ? wide : narrow;
 	for (int i = 0; i < 3; i++) {
 		b.lo.a[i] = fmax(b.lo.a[i], -far);
 		b.hi.a[i] = fmin(b.hi.a[i], far);
@@ -64,7 +51,7 @@ static struct pov_traced *make(struct arena *a, const struct pov_solid *s)
 		t->leaf_count = 0;
 		if (t->leaves)
 			number_leaves(t, term);
-		struct pov_surface surface = { .region = trace_region(term), .n = options.resolution, .plain = true, .scratch = &scratch };
+		struct pov_surface surface = { .region = near_part(term->extent, wide), .close = near_part(term->extent, narrow), .n = options.resolution, .plain = true, .scratch = &scratch };
 		surface.size = box_diagonal(&surface.region);
 		if (t->leaves && term->kind != TERM_EMPTY)
 			pov_surface(&surface, term, false, &list);
@@ -126,32 +113,37 @@ static double leaf_field(const void *context, struct vec p)
 	return pov_term_field(context, p);
 }
 
-/* Onto the leaf's own surface, where it is near on the ray; then the normal is that of the field, else the facet's. */
+/* The field's slope at a point, unit. */
+static struct vec slope_at(const struct pov_term *leaf, struct vec at, double h)
+{
+	struct vec slope;
+	for (int i = 0; i < 3; i++) {
+		struct vec p = at, r = at;
+		p.a[i] -= h;
+		r.a[i] += h;
+		slope.a[i] = pov_term_field(leaf, r) - pov_term_field(leaf, p);
+	}
+	return vec_unit(slope);
+}
+
+/* Onto the leaf's own surface, which is as far off as the field says; then the normal is that of the field, else the facet's. */
 static void polish(const struct search *q, const struct pov_facet *f, const struct pov_term *leaf, struct vec *at, struct vec *normal)
 {
-	double edge = vec_length(vec_sub(f->v[1], f->v[0])), step = 0.25 * edge;
+	double edge = vec_length(vec_sub(f->v[1], f->v[0])), slope = pov_shape_of(leaf->shape)->slope;
 	*normal = vec_unit(vec_cross(vec_sub(f->v[1], f->v[0]), vec_sub(f->v[2], f->v[0])));
-	if (leaf->half_count || leaf->shape->kind == POV_MESH || leaf->shape->kind == POV_HEIGHT_FIELD || !pov_shape_has_inside(leaf->shape))
+	if (leaf->half_count || leaf->shape->kind == POV_TEXT || !(slope > 0 && isfinite(slope)) || !pov_shape_has_inside(leaf->shape))
 		return;
+	double off = fabs(pov_term_field(leaf, *at)) / (slope * leaf->squeeze), step = fmin(8 * off, 0.25 * edge);
 	struct vec before = vec_sub(*at, vec_scale(q->toward, fmin(step, q->nearest))), behind = vec_add(*at, vec_scale(q->toward, step));
 	double a = pov_term_field(leaf, before), b = pov_term_field(leaf, behind);
 	if (a < 0 && b > 0)
 		*at = pov_root(leaf_field, leaf, before, a, behind, b);
 	else if (a > 0 && b < 0)
 		*at = pov_root(leaf_field, leaf, behind, b, before, a);
-	else
-		return;
-	struct vec slope;
-	double h = 1e-4 * edge;
-	for (int i = 0; i < 3; i++) {
-		struct vec p = *at, r = *at;
-		p.a[i] -= h;
-		r.a[i] += h;
-		slope.a[i] = pov_term_field(leaf, r) - pov_term_field(leaf, p);
-	}
-	slope = vec_unit(slope);
-	if (fabs(vec_dot(slope, *normal)) > 0.5)
-		*normal = vec_scale(slope, vec_dot(slope, *normal) > 0 ? 1 : -1);
+	struct vec own = slope_at(leaf, *at, 1e-4 * edge);
+	double along = vec_dot(own, *normal);
+	if (fabs(along) > 0.8)
+		*normal = vec_scale(own, along > 0 ? 1 : -1);
 }
 
 bool pov_solid_trace(struct arena *a, struct pov_solid *s, struct vec from, struct vec toward, struct vec *at, struct vec *normal)
