@@ -33,6 +33,7 @@ struct check {
 	char *copied[FILES_MOST];       /* paths copied so far; the copy is NUMBER.inc */
 	size_t copies;
 	struct ray rays[RAYS];
+	double entry[RAYS];              /* of the box of our scene */
 	double ours[RAYS], theirs[RAYS]; /* distance, or -1 */
 };
 
@@ -252,7 +253,20 @@ static int copy_file(struct check *c, const char *path)
 	return number;
 }
 
-static void write_driver(const struct check *c)
+/* Where a ray enters the box, a little before it; 0 where it starts inside or misses. */
+static double entry_of(const struct ray *r, const struct box *b)
+{
+	double in = 0, out = INFINITY;
+	for (int k = 0; k < 3; k++) {
+		double t0 = (b->lo.a[k] - r->o.a[k]) / r->d.a[k], t1 = (b->hi.a[k] - r->o.a[k]) / r->d.a[k];
+		in = fmax(in, fmin(t0, t1));
+		out = fmin(out, fmax(t0, t1));
+	}
+	return in <= out ? fmax(0, in - 1e-3 * box_diagonal(b)) : 0;
+}
+
+/* POV-Ray's rays start where they enter the box of our scene, so that surfaces without end are met within it only. */
+static void write_driver(struct check *c, const struct box *b)
 {
 	char name[128];
 	snprintf(name, sizeof name, "%s/driver.pov", c->work);
@@ -265,7 +279,9 @@ static void write_driver(const struct check *c)
 	           "#if (vlength(N__) = 0) #write(Out__, \"-1\\n\") #else #write(Out__, str(vlength(P__ - A__), 0, 12), \"\\n\") #end #end\n");
 	for (int i = 0; i < RAYS; i++) {
 		const struct ray *r = &c->rays[i];
-		fprintf(f, "Ray__(<%.17g,%.17g,%.17g>,<%.17g,%.17g,%.17g>)\n", r->o.x, r->o.y, r->o.z, r->d.x, r->d.y, r->d.z);
+		c->entry[i] = entry_of(r, b);
+		struct vec o = vec_add(r->o, vec_scale(r->d, c->entry[i]));
+		fprintf(f, "Ray__(<%.17g,%.17g,%.17g>,<%.17g,%.17g,%.17g>)\n", o.x, o.y, o.z, r->d.x, r->d.y, r->d.z);
 	}
 	fprintf(f, "#fclose Out__\n");
 	fclose(f);
@@ -326,14 +342,13 @@ static void make_rays(struct check *c, const struct scene *s, const struct box *
 			r->d = camera_direction(&camera, x, y);
 			continue;
 		}
-		struct vec to = b->lo;
-		r->o = b->lo;
-		for (int k = 0; k < 3; k++) {
-			r->o.a[k] += rng_uniform(key, (uint64_t)k) * (b->hi.a[k] - b->lo.a[k]);
+		/* From a sphere about the box toward a point in the box. */
+		struct vec center = vec_scale(vec_add(b->lo, b->hi), 0.5), to = b->lo, out;
+		double z = 2 * rng_uniform(key, 0) - 1, turn = 6.28318530717958648 * rng_uniform(key, 1), ring = sqrt(1 - z * z);
+		out = vec(ring * cos(turn), ring * sin(turn), z);
+		for (int k = 0; k < 3; k++)
 			to.a[k] += rng_uniform(key, 3 + (uint64_t)k) * (b->hi.a[k] - b->lo.a[k]);
-		}
-		int side = (int)(rng_uniform(key, 6) * 6);
-		r->o.a[side / 2] = side % 2 ? b->hi.a[side / 2] : b->lo.a[side / 2];
+		r->o = vec_add(center, vec_scale(out, 1.05 * box_diagonal(b) / 2));
 		r->d = vec_unit(vec_sub(to, r->o));
 	}
 }
@@ -372,7 +387,7 @@ static double count_agreeing(const struct check *c, const struct box *b)
 	int agree = 0;
 	bool list = getenv("CHECK_POV_LIST") != NULL;
 	for (int i = 0; i < RAYS; i++) {
-		double ours = c->ours[i], theirs = c->theirs[i];
+		double ours = c->ours[i], theirs = c->theirs[i] < 0 ? -1 : c->theirs[i] + c->entry[i];
 		const struct ray *r = &c->rays[i];
 		if (theirs >= 0 && !is_inside(vec_add(r->o, vec_scale(r->d, theirs)), b))
 			theirs = -1;
@@ -380,7 +395,7 @@ static double count_agreeing(const struct check *c, const struct box *b)
 		agree += same;
 		if (list && !same)
 			fprintf(stderr, "%d from %g %g %g toward %g %g %g: %g, POV-Ray %g\n", i, r->o.x, r->o.y, r->o.z, r->d.x, r->d.y, r->d.z, ours,
-			        c->theirs[i]);
+			        theirs);
 	}
 	return (double)agree / RAYS;
 }
@@ -458,7 +473,7 @@ int main(int argc, char **argv)
 		shoot(&c, &p);
 	}
 	copy_file(&c, c.scene);
-	write_driver(&c);
+	write_driver(&c, &p.bounds);
 	run_povray(&c);
 	if (!read_hits(&c)) {
 		printf("refused  -     %s  ", c.scene);
