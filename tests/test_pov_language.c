@@ -345,6 +345,11 @@ static void scopes(void **state)
 	ASSERT_LIGHTS("#macro Set(N) #declare N = 8; #end #declare A = array[2] {1,2} Set(A[1]) light_source{A[1],1}", 8);
 	ASSERT_LIGHTS("#macro Make(N) #declare N = 8; #end Make(Fresh) #ifdef(Fresh) light_source{1,1} #else light_source{2,1} #end", 2);
 	ASSERT_LIGHTS("#declare A = 1; #undef A #ifndef(A) light_source{1,1} #end", 1);
+	/* The last thing a macro does counts, too. */
+	ASSERT_LIGHTS("#macro Set(N) #declare N = 8 #end #declare K = 1; Set(K) light_source{K,1}", 8);
+	ASSERT_LIGHTS("#macro Set(N) #local N = 8 #end #declare K = 1; Set(K) light_source{K,1}", 8);
+	ASSERT_LIGHTS("#macro Set() #local N = 8 #end Set() #ifndef(N) light_source{1,1} #end", 1);
+	ASSERT_LIGHTS("#macro Turn(L) #declare L = light_source { L rotate 90*y } #end #declare K = light_source { z, 1 } Turn(K) light_source { K }", 1);
 	/* The tokens of the body flow into what surrounds the call. */
 	assert_number("#macro M(A) A+1 #end", "M(3)*2", 5);
 	assert_number("#macro M(A) A #local B = 1; #end #declare B = 7;", "M(B)", 7);
