@@ -56,9 +56,13 @@ static void part(const struct piece *p, const double *d, struct piece *in, struc
 	}
 }
 
-/* Peel: what is beyond a half space is outside, the rest goes on to the next. What lies in its plane is inside if it faces the same
- * way, or, 'closed', always. */
-static void cut_halves(const struct pov_half *halves, int count, bool closed, const struct pov_facet *f, struct pov_facets *in,
+/* Peel: what is beyond a half space is outside, the rest goes on to the next. What lies in its plane counts as inside, if it
+ * faces the same way or the other way. */
+struct in_plane {
+	bool same, other;
+};
+
+static void cut_halves(const struct pov_half *halves, int count, struct in_plane inside, const struct pov_facet *f, struct pov_facets *in,
                        struct pov_facets *out)
 {
 	struct piece rest = { 3, { f->v[0], f->v[1], f->v[2] } };
@@ -74,7 +78,7 @@ static void cut_halves(const struct pov_half *halves, int count, bool closed, co
 			beyond += d[i] > 0;
 			within += d[i] < 0;
 		}
-		if (beyond == 0 && (closed || within > 0 || vec_dot(normal, halves[h].normal) > 0))
+		if (beyond == 0 && (within > 0 || (vec_dot(normal, halves[h].normal) > 0 ? inside.same : inside.other)))
 			continue;
 		struct piece inner = { 0 }, outer = rest;
 		if (within > 0)
@@ -212,7 +216,7 @@ static void cut_facet(const struct pov_cutter *c, const struct pov_facet *f, str
 
 /* The facet against the parts in turn: what one decides is done, the rest goes on to the next. decided: the side a part decides. */
 struct turns {
-	const struct pov_cutter *cutter;
+	struct pov_cutter cutter;
 	const struct pov_term *except;
 	struct pov_facets rest[2], *in, *out;
 	int at; /* which of rest is to go on */
@@ -225,8 +229,10 @@ static void take_turn(struct turns *s, struct pov_term *part)
 	if (part == s->except || (s->meet && part->kind == TERM_LEAF && !pov_shape_has_inside(part->shape)))
 		return;
 	pov_facets_clear(to);
+	if (s->except)
+		s->cutter.flush = part->index > s->except->index;
 	for (size_t i = 0; i < from->count; i++)
-		cut_facet(s->cutter, &from->all[i], part, NULL, s->meet ? to : s->in, s->meet ? s->out : to);
+		cut_facet(&s->cutter, &from->all[i], part, NULL, s->meet ? to : s->in, s->meet ? s->out : to);
 	s->at = !s->at;
 }
 
@@ -266,12 +272,13 @@ static void turn_sibling(void *context, uint32_t i)
 	take_turn(s->turns, s->term->children[i]);
 }
 
-static void cut_parts(const struct pov_cutter *c, const struct pov_facet *f, struct pov_term *t, const struct pov_term *except,
+static void cut_parts(const struct pov_cutter *c, bool turned, const struct pov_facet *f, struct pov_term *t, const struct pov_term *except,
                       struct pov_facets *in, struct pov_facets *out)
 {
 	size_t most = in ? in->most : out->most;
-	struct turns s = { .cutter = c, .except = except, .rest = { { .most = most }, { .most = most } }, .in = in, .out = out,
+	struct turns s = { .cutter = *c, .except = except, .rest = { { .most = most }, { .most = most } }, .in = in, .out = out,
 		           .meet = t->kind != TERM_UNION };
+	s.cutter.turned = turned;
 	pov_facets_add(&s.rest[0], f->v, f->material);
 	if (t->children) {
 		struct siblings all = { &s, t, pov_facet_box(f) };
@@ -290,6 +297,7 @@ static void cut_facet(const struct pov_cutter *c, const struct pov_facet *f, str
                       struct pov_facets *in, struct pov_facets *out)
 {
 	struct box own = pov_facet_box(f);
+	bool turned = c->turned != t->inverse;
 	if (t->inverse) {
 		struct pov_facets *swap = in;
 		in = out;
@@ -300,9 +308,10 @@ static void cut_facet(const struct pov_cutter *c, const struct pov_facet *f, str
 	if (t->kind == TERM_EMPTY || !box_meets(&own, &t->box) || (t->kind == TERM_LEAF && !pov_shape_has_inside(t->shape)))
 		put(out, f->v, f->material);
 	else if (t->kind != TERM_LEAF)
-		cut_parts(c, f, t, except, in, out);
+		cut_parts(c, turned, f, t, except, in, out);
 	else if (t->halves)
-		cut_halves(t->halves, t->half_count, false, f, in, out);
+		/* Against a complement the same way is the other, and inside is outside. */
+		cut_halves(t->halves, t->half_count, turned ? (struct in_plane){ true, !c->flush } : (struct in_plane){ c->flush, false }, f, in, out);
 	else
 		cut_bent(c, t, f, in, out);
 }
@@ -328,5 +337,5 @@ void pov_cut_box(const struct pov_facets *list, const struct box *b, struct pov_
 	}
 	pass_lost(in, list);
 	for (size_t i = 0; i < list->count; i++)
-		cut_halves(walls, n, true, &list->all[i], in, NULL);
+		cut_halves(walls, n, (struct in_plane){ true, true }, &list->all[i], in, NULL);
 }
