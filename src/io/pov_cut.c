@@ -9,7 +9,8 @@ enum {
 	FINEST = 400,      /* and the longest side of a shape to a cut at most */
 };
 
-static const double flush = 1e-9; /* of the size at hand: what lies so near to a surface lies in it */
+static const double flush = 1e-9;       /* of the size at hand: what lies so near to a surface lies in it */
+static const double surroundings = 0.87; /* of an edge, in its lengths: see halve */
 
 /* A convex polygon while it is cut exactly. */
 struct piece {
@@ -118,11 +119,11 @@ static bool ball_meets(struct vec p, double r, const struct box *b)
 	return true;
 }
 
-/* Whether to halve an edge: *middle is its middle then. The ball about the middle of the longest edge with 0.87 of its length holds the
+/* Whether to halve an edge: *middle is its middle then. The ball about the middle of the longest edge with sqrt 3 / 2 of its length holds the
  * whole triangle, so that a triangle with no edge to halve is short or provably on one side. */
 static bool halve(const struct bend *b, const struct corner *p, const struct corner *q, struct corner *middle)
 {
-	double length = vec_length(vec_sub(q->p, p->p)), r = 0.87 * length;
+	double length = vec_length(vec_sub(q->p, p->p)), r = surroundings * length;
 	if (length <= b->longest)
 		return false;
 	middle->p = vec_scale(vec_add(p->p, q->p), 0.5);
@@ -214,6 +215,14 @@ static void cut_bent(const struct pov_cutter *c, struct pov_term *leaf, const st
 static void cut_facet(const struct pov_cutter *c, const struct pov_facet *f, struct pov_term *t, const struct pov_term *except,
                       struct pov_facets *in, struct pov_facets *out);
 
+/* The box of all that decides how the facet is cut: with the surroundings of its edges, so that a neighbour is never cut by what it
+ * is not. */
+static struct box decision_box(const struct pov_facet *f)
+{
+	struct box b = pov_facet_box(f);
+	return box_enlarge(&b, surroundings * box_diagonal(&b));
+}
+
 /* The facet against the parts in turn: what one decides is done, the rest goes on to the next. decided: the side a part decides. */
 struct turns {
 	struct pov_cutter cutter;
@@ -281,7 +290,7 @@ static void cut_parts(const struct pov_cutter *c, bool turned, const struct pov_
 	s.cutter.turned = turned;
 	pov_facets_add(&s.rest[0], f->v, f->material);
 	if (t->children) {
-		struct siblings all = { &s, t, pov_facet_box(f) };
+		struct siblings all = { &s, t, decision_box(f) };
 		pov_tree_visit(&t->tree, meets_facet, turn_sibling, &all);
 	} else {
 		/* Exact cuts first: they leave less to the others. */
@@ -296,7 +305,7 @@ static void cut_parts(const struct pov_cutter *c, bool turned, const struct pov_
 static void cut_facet(const struct pov_cutter *c, const struct pov_facet *f, struct pov_term *t, const struct pov_term *except,
                       struct pov_facets *in, struct pov_facets *out)
 {
-	struct box own = pov_facet_box(f);
+	struct box own = decision_box(f);
 	bool turned = c->turned != t->inverse;
 	if (t->inverse) {
 		struct pov_facets *swap = in;
