@@ -9,7 +9,8 @@ enum {
 	FINEST = 400,      /* and the longest side of a shape to a cut at most */
 };
 
-static const double flush = 1e-9; /* of the size at hand: what lies so near to a surface lies in it */
+static const double flush = 1e-9;       /* of the size at hand: what lies so near to a surface lies in it */
+static const double surroundings = 0.87; /* of an edge, in its lengths: see halve */
 
 /* A convex polygon while it is cut exactly. */
 struct piece {
@@ -56,9 +57,13 @@ static void part(const struct piece *p, const double *d, struct piece *in, struc
 	}
 }
 
-/* Peel: what is beyond a half space is outside, the rest goes on to the next. What lies in its plane is inside if it faces the same
- * way, or, 'closed', always. */
-static void cut_halves(const struct pov_half *halves, int count, bool closed, const struct pov_facet *f, struct pov_facets *in,
+/* Peel: what is beyond a half space is outside, the rest goes on to the next. What lies in its plane counts as inside, if it
+ * faces the same way or the other way. */
+struct in_plane {
+	bool same, other;
+};
+
+static void cut_halves(const struct pov_half *halves, int count, struct in_plane inside, const struct pov_facet *f, struct pov_facets *in,
                        struct pov_facets *out)
 {
 	struct piece rest = { 3, { f->v[0], f->v[1], f->v[2] } };
@@ -74,7 +79,7 @@ static void cut_halves(const struct pov_half *halves, int count, bool closed, co
 			beyond += d[i] > 0;
 			within += d[i] < 0;
 		}
-		if (beyond == 0 && (closed || within > 0 || vec_dot(normal, halves[h].normal) > 0))
+		if (beyond == 0 && (within > 0 || (vec_dot(normal, halves[h].normal) > 0 ? inside.same : inside.other)))
 			continue;
 		struct piece inner = { 0 }, outer = rest;
 		if (within > 0)
@@ -114,11 +119,11 @@ static bool ball_meets(struct vec p, double r, const struct box *b)
 	return true;
 }
 
-/* Whether to halve an edge: *middle is its middle then. The ball about the middle of the longest edge with 0.87 of its length holds the
+/* Whether to halve an edge: *middle is its middle then. The ball about the middle of the longest edge with sqrt 3 / 2 of its length holds the
  * whole triangle, so that a triangle with no edge to halve is short or provably on one side. */
 static bool halve(const struct bend *b, const struct corner *p, const struct corner *q, struct corner *middle)
 {
-	double length = vec_length(vec_sub(q->p, p->p)), r = 0.87 * length;
+	double length = vec_length(vec_sub(q->p, p->p)), r = surroundings * length;
 	if (length <= b->longest)
 		return false;
 	middle->p = vec_scale(vec_add(p->p, q->p), 0.5);
@@ -210,9 +215,17 @@ static void cut_bent(const struct pov_cutter *c, struct pov_term *leaf, const st
 static void cut_facet(const struct pov_cutter *c, const struct pov_facet *f, struct pov_term *t, const struct pov_term *except,
                       struct pov_facets *in, struct pov_facets *out);
 
+/* The box of all that decides how the facet is cut: with the surroundings of its edges, so that a neighbour is never cut by what it
+ * is not. */
+static struct box decision_box(const struct pov_facet *f)
+{
+	struct box b = pov_facet_box(f);
+	return box_enlarge(&b, surroundings * box_diagonal(&b));
+}
+
 /* The facet against the parts in turn: what one decides is done, the rest goes on to the next. decided: the side a part decides. */
 struct turns {
-	const struct pov_cutter *cutter;
+	struct pov_cutter cutter;
 	const struct pov_term *except;
 	struct pov_facets rest[2], *in, *out;
 	int at; /* which of rest is to go on */
@@ -225,8 +238,10 @@ static void take_turn(struct turns *s, struct pov_term *part)
 	if (part == s->except || (s->meet && part->kind == TERM_LEAF && !pov_shape_has_inside(part->shape)))
 		return;
 	pov_facets_clear(to);
+	if (s->except)
+		s->cutter.flush = part->index > s->except->index;
 	for (size_t i = 0; i < from->count; i++)
-		cut_facet(s->cutter, &from->all[i], part, NULL, s->meet ? to : s->in, s->meet ? s->out : to);
+		cut_facet(&s->cutter, &from->all[i], part, NULL, s->meet ? to : s->in, s->meet ? s->out : to);
 	s->at = !s->at;
 }
 
@@ -266,15 +281,16 @@ static void turn_sibling(void *context, uint32_t i)
 	take_turn(s->turns, s->term->children[i]);
 }
 
-static void cut_parts(const struct pov_cutter *c, const struct pov_facet *f, struct pov_term *t, const struct pov_term *except,
+static void cut_parts(const struct pov_cutter *c, bool turned, const struct pov_facet *f, struct pov_term *t, const struct pov_term *except,
                       struct pov_facets *in, struct pov_facets *out)
 {
 	size_t most = in ? in->most : out->most;
-	struct turns s = { .cutter = c, .except = except, .rest = { { .most = most }, { .most = most } }, .in = in, .out = out,
+	struct turns s = { .cutter = *c, .except = except, .rest = { { .most = most }, { .most = most } }, .in = in, .out = out,
 		           .meet = t->kind != TERM_UNION };
+	s.cutter.turned = turned;
 	pov_facets_add(&s.rest[0], f->v, f->material);
 	if (t->children) {
-		struct siblings all = { &s, t, pov_facet_box(f) };
+		struct siblings all = { &s, t, decision_box(f) };
 		pov_tree_visit(&t->tree, meets_facet, turn_sibling, &all);
 	} else {
 		/* Exact cuts first: they leave less to the others. */
@@ -289,7 +305,8 @@ static void cut_parts(const struct pov_cutter *c, const struct pov_facet *f, str
 static void cut_facet(const struct pov_cutter *c, const struct pov_facet *f, struct pov_term *t, const struct pov_term *except,
                       struct pov_facets *in, struct pov_facets *out)
 {
-	struct box own = pov_facet_box(f);
+	struct box own = decision_box(f);
+	bool turned = c->turned != t->inverse;
 	if (t->inverse) {
 		struct pov_facets *swap = in;
 		in = out;
@@ -300,9 +317,10 @@ static void cut_facet(const struct pov_cutter *c, const struct pov_facet *f, str
 	if (t->kind == TERM_EMPTY || !box_meets(&own, &t->box) || (t->kind == TERM_LEAF && !pov_shape_has_inside(t->shape)))
 		put(out, f->v, f->material);
 	else if (t->kind != TERM_LEAF)
-		cut_parts(c, f, t, except, in, out);
+		cut_parts(c, turned, f, t, except, in, out);
 	else if (t->halves)
-		cut_halves(t->halves, t->half_count, false, f, in, out);
+		/* Against a complement the same way is the other, and inside is outside. */
+		cut_halves(t->halves, t->half_count, turned ? (struct in_plane){ true, !c->flush } : (struct in_plane){ c->flush, false }, f, in, out);
 	else
 		cut_bent(c, t, f, in, out);
 }
@@ -328,5 +346,5 @@ void pov_cut_box(const struct pov_facets *list, const struct box *b, struct pov_
 	}
 	pass_lost(in, list);
 	for (size_t i = 0; i < list->count; i++)
-		cut_halves(walls, n, true, &list->all[i], in, NULL);
+		cut_halves(walls, n, (struct in_plane){ true, true }, &list->all[i], in, NULL);
 }

@@ -2,15 +2,14 @@
 
 #include <stdlib.h>
 
-static bool has_area(const struct vec *v)
+static bool same_place(struct vec p, struct vec q)
 {
-	struct vec n = vec_cross(vec_sub(v[1], v[0]), vec_sub(v[2], v[0]));
-	return n.x != 0 || n.y != 0 || n.z != 0;
+	return p.x == q.x && p.y == q.y && p.z == q.z;
 }
 
 void pov_facets_add(struct pov_facets *f, const struct vec *v, uint32_t material)
 {
-	if (f->lost || f->full || !has_area(v))
+	if (f->lost || f->full || same_place(v[0], v[1]) || same_place(v[1], v[2]) || same_place(v[2], v[0]))
 		return;
 	if (f->count == f->most) {
 		f->full = true;

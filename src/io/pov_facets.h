@@ -22,7 +22,7 @@ struct pov_facets {
 	bool lost, full;
 };
 
-/* Triangles of no area (two corners in one place, three in a line to the last bit) are left out. */
+/* Triangles with two corners in one place are left out; those of no area else stay, for without them their neighbours would not meet. */
 void pov_facets_add(struct pov_facets *f, const struct vec *v, uint32_t material);
 
 /* Empty, the memory kept. */

@@ -83,6 +83,12 @@ static void png_quiet(png_structp png, png_const_charp text)
 	(void)text;
 }
 
+static void png_leave(png_structp png, png_const_charp text)
+{
+	(void)text;
+	png_longjmp(png, 1);
+}
+
 static void png_row(struct picture *p, int row, const unsigned char *b, int color, int depth)
 {
 	for (int x = 0; x < p->width; x++) {
@@ -125,7 +131,7 @@ static bool read_png_rows(struct picture *p, png_structp png, png_infop info, un
 static bool read_png(struct picture *p)
 {
 	unsigned char *rows = NULL;
-	png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, png_quiet);
+	png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, png_leave, png_quiet);
 	png_infop info = png ? png_create_info_struct(png) : NULL;
 	bool done = info && read_png_rows(p, png, info, &rows);
 	if (png)

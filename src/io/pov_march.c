@@ -1,25 +1,24 @@
 #include "io/pov_march.h"
 
-enum { ROOT_STEPS = 8, BLOCK = 8, SIDE = BLOCK + 1, CELLS_MOST = 1 << 20 };
+enum { ROOT_STEPS = 12, BLOCK = 8, SIDE = BLOCK + 1, CELLS_MOST = 1 << 20 };
 
 struct vec pov_root(double (*field)(const void *context, struct vec p), const void *context, struct vec in, double inner, struct vec out,
                     double outer)
 {
 	if (outer == 0)
 		return out;
-	if (inner == 0)
-		return in;
 	struct vec way = vec_sub(out, in);
-	double s = 0, t = 1, at = 0;
+	double s = 0, t = 1, at = 0, enough = 1e-14 * (fabs(inner) + fabs(outer));
+	bool flat = inner == 0; /* the field is zero on a stretch, whose end is meant */
 	int kept = 0; /* which end stayed last time: -1 the inner, 1 the outer */
 	for (int i = 0; i < ROOT_STEPS; i++) {
 		at = (s * outer - t * inner) / (outer - inner);
 		if (!(at > s && at < t))
 			at = (s + t) / 2;
 		double f = field(context, vec_add(in, vec_scale(way, at)));
-		if (f == 0)
+		if (!flat && fabs(f) <= enough)
 			break;
-		if (f < 0) {
+		if (f <= 0) {
 			s = at;
 			inner = f;
 			outer = kept == 1 ? outer / 2 : outer;

@@ -4,8 +4,8 @@
 
 #include "io/pov_shape.h"
 
-/* A point where the field passes zero between one inside (inner < 0 or <= 0) and one outside: regula falsi with Illinois' halving
- * (Dowell and Jarratt 1971), 8 steps. The result depends on which end is which only, so that neighbours that share the edge get
+/* A point where the field rises above zero between one inside (inner <= 0) and one outside (outer >= 0): regula falsi with Illinois' halving
+ * (Dowell and Jarratt 1971), at most 12 steps. The result depends on which end is which only, so that neighbours that share the edge get
  * the same point. A field that is no number counts as outside. */
 struct vec pov_root(double (*field)(const void *context, struct vec p), const void *context, struct vec in, double inner, struct vec out,
                     double outer);

@@ -4,9 +4,9 @@
 
 #include <stdlib.h>
 
-/* How much larger than the rest a sky is; half the side of the region where there is nothing finite; by how much of the rest what is marched
- * through may go beyond it. */
-static const double dome_ratio = 20, alone = 10, close_by = 0.5;
+/* How much larger than the rest a sky is; half the side of a scene where nothing is finite, about the origin; by how much of the scene
+ * what is marched through may go beyond it; and a side for scenes of one point. */
+static const double dome_ratio = 20, alone = 10, close_by = 0.5, narrowest = 1e-3;
 
 struct mesher {
 	struct scene *scene;
@@ -110,16 +110,13 @@ static void set_region(struct mesher *m, struct box rest)
 {
 	struct pov_surface *s = &m->surface;
 	s->size = box_is_empty(&rest) ? 0 : box_diagonal(&rest);
+	if (box_is_empty(&rest))
+		rest = (struct box){ vec(-alone, -alone, -alone), vec(alone, alone, alone) };
 	if (m->options->eye_given)
 		box_extend(&rest, m->options->eye);
-	if (box_is_empty(&rest) || !(box_longest(&rest) > 0)) {
-		struct vec at = box_is_empty(&rest) ? vec(0, 0, 0) : rest.lo;
-		rest = (struct box){ at, at };
-		s->region = s->close = box_enlarge(&rest, alone);
-	} else {
-		s->region = box_enlarge(&rest, m->options->extent * box_longest(&rest));
-		s->close = box_enlarge(&rest, fmin(close_by, m->options->extent) * box_longest(&rest));
-	}
+	double side = fmax(box_longest(&rest), narrowest);
+	s->region = box_enlarge(&rest, m->options->extent * side);
+	s->close = box_enlarge(&rest, fmin(close_by, m->options->extent) * side);
 	if (!(s->size > 0))
 		s->size = box_diagonal(&s->region);
 }

@@ -2,10 +2,10 @@
 #include "io/pov_march.h"
 #include "io/pov_poly.h"
 
-enum { ORDER_MOST = 35, TIGHTENINGS = 4 };
+enum { ORDER_MOST = 35, TIGHTENINGS = 4, SEARCHES = 4, FINER = 4, SEEN_CELLS = 30 };
 
 /* Cells across the box: along its longest side at least and at most, along its shortest at least. */
-enum { QUADRIC_CELLS = 24, POLY_CELLS = 60, ACROSS = 12, CELLS_MOST = 240 };
+enum { QUADRIC_CELLS = 32, POLY_CELLS = 60, ACROSS = 12, CELLS_MOST = 240 };
 
 struct term {
 	double c;
@@ -172,13 +172,25 @@ static double find_step(const struct pov_solid *s, const struct box *b, int n)
 	return fmax(step * 32 / n, most / CELLS_MOST);
 }
 
+/* Where the surface is; one that is small in the box is looked for with finer grids, until it is many cells wide. */
+static struct box find_surface(const struct pov_solid *s, const struct box *b, double *step)
+{
+	struct box found = box_empty();
+	for (int i = 0; i < SEARCHES && (box_is_empty(&found) || box_longest(&found) < SEEN_CELLS * *step); i++) {
+		*step /= i ? FINER : 1;
+		struct box seen = box_enlarge(b, *step);
+		found = pov_march_extent(s, &seen, *step);
+	}
+	return found;
+}
+
 /* Look where the surface is, closer and closer, then make it there. */
 static void mesh_poly(const struct pov_solid *s, const struct pov_drawing *d)
 {
 	struct box own = pov_shape_of(s)->bounds(s), box = box_common(&own, &d->region);
 	for (int i = 0; i < TIGHTENINGS && !box_is_empty(&box); i++) {
 		double step = find_step(s, &box, d->n);
-		struct box seen = box_enlarge(&box, step), found = pov_march_extent(s, &seen, step), wide = box_enlarge(&found, step);
+		struct box found = find_surface(s, &box, &step), wide = box_enlarge(&found, step), seen = box_enlarge(&box, step);
 		if (box_is_empty(&found))
 			return;
 		found = box_common(&wide, &seen);

@@ -145,18 +145,18 @@ static void turn_facets(struct pov_facets *f)
 	}
 }
 
-/* What of *f is inside 'by' (outside, 'outside'). */
-static void keep(const struct pov_surface *s, struct pov_facets *f, struct pov_term *by, const struct pov_term *except, bool outside)
+/* What of *f, which is within 'here', is inside 'by'. */
+static void keep(const struct pov_surface *s, struct pov_facets *f, const struct box *here, struct pov_term *by,
+                 const struct pov_term *except, bool flush)
 {
-	struct pov_cutter cutter = { s->close, s->n };
+	struct pov_cutter cutter = { .region = box_common(here, &s->close), .n = s->n, .flush = flush };
 	struct pov_facets kept = open_facets(f);
-	pov_cut(&cutter, f, by, except, outside ? NULL : &kept, outside ? &kept : NULL);
+	pov_cut(&cutter, f, by, except, &kept, NULL);
 	pov_facets_free(f);
 	*f = kept;
 }
 
-/* Each part outside its siblings. Faces in one plane count once only where they look at it from outside (see pov_cut): the facets of a union
- * that is not turned are turned for the cut. */
+/* Each part outside its siblings, which is inside the complements of them: facets face the way of those complements for the cut. */
 static void collect_exact(struct pov_surface *s, struct pov_term *t, const struct box *within, bool turned, struct pov_facets *out)
 {
 	int bent = count_bent(t);
@@ -168,8 +168,8 @@ static void collect_exact(struct pov_surface *s, struct pov_term *t, const struc
 		s->even = even;
 		if (!turned)
 			turn_facets(&part);
-		t->inverse = false;
-		keep(s, &part, t, c, true);
+		t->inverse = true;
+		keep(s, &part, within, t, c, false);
 		t->inverse = inverse;
 		if (!turned)
 			turn_facets(&part);
@@ -182,7 +182,7 @@ static void collect_exact(struct pov_surface *s, struct pov_term *t, const struc
  * the cut. */
 static void collect_meet(struct pov_surface *s, struct pov_term *t, const struct box *within, bool turned, struct pov_facets *out)
 {
-	struct box here = box_common(within, &t->box);
+	struct box here = box_common(within, t->kind == TERM_CLIP ? &t->extent : &t->box);
 	int bent = count_bent(t);
 	for (struct pov_term *c = t->child; c && !box_is_empty(&here); c = c->next) {
 		struct pov_facets part = open_facets(out);
@@ -196,7 +196,7 @@ static void collect_meet(struct pov_surface *s, struct pov_term *t, const struct
 			for (struct pov_term *by = t->child; by; by = by->next) {
 				bool decides = by->kind != TERM_LEAF || pov_shape_has_inside(by->shape) || t->kind == TERM_CLIP;
 				if (by != c && decides && (by->half_count > 0) == (pass == 0))
-					keep(s, &part, by, NULL, false);
+					keep(s, &part, &here, by, NULL, by->index > c->index);
 			}
 		if (turned)
 			turn_facets(&part);

@@ -119,7 +119,7 @@ static struct pov_term *resolve_shape(struct resolver *r, const struct pov_solid
 static void add_child(struct pov_term *t, struct pov_term **end, struct pov_term *child)
 {
 	*end = child;
-	t->child_count++;
+	child->index = t->child_count++;
 	t->clipped = t->clipped || child->clipped || child->kind == TERM_CLIP;
 }
 

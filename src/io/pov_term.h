@@ -37,7 +37,7 @@ struct pov_term {
 	/* Combinations. children in order, also as an array with a tree over their boxes where there are many. */
 	struct pov_term *child, *next;
 	struct pov_term **children;
-	uint32_t child_count;
+	uint32_t child_count, index; /* index: of the part among its siblings, rising */
 	struct pov_tree tree;
 };
 
