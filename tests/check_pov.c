@@ -359,6 +359,10 @@ static void shoot(struct check *c, const struct primitives *p)
 	char options[ACCEL_OPT_MOST];
 	struct accel a;
 	struct err e = { 0 };
+	for (int i = 0; i < RAYS; i++)
+		c->ours[i] = -1;
+	if (p->count == 0)
+		return;
 	key_defaults(ops->keys, options);
 	if (accel_build(&a, ops, options, p, &e) != 0) {
 		printf("unread   -     %s  %s\n", c->scene, e.text);
@@ -442,7 +446,11 @@ static int read_scene(const struct check *c, struct scene *s, struct primitives 
 		status = pov_read(s, c->scene, t.bytes, t.size, &o, &summary, e);
 	if (status == 0) {
 		pov_summary_print(&summary, line);
-		status = primitives_make(p, s, CURVES_KEEP, 3, c->scene, e);
+		/* A scene of nothing that can be seen is read, too. */
+		if (s->object_count == 0)
+			p->bounds = (struct box){ vec(-1, -1, -1), vec(1, 1, 1) };
+		else
+			status = primitives_make(p, s, CURVES_KEEP, 3, c->scene, e);
 	}
 	text_free(&t);
 	return status;
