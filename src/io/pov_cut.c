@@ -119,17 +119,18 @@ static bool ball_meets(struct vec p, double r, const struct box *b)
 	return true;
 }
 
-/* Whether to halve an edge: *middle is its middle then. The ball about the middle of the longest edge with sqrt 3 / 2 of its length holds the
- * whole triangle, so that a triangle with no edge to halve is short or provably on one side. */
+/* Whether to halve an edge: *middle is its middle then. A short one only where it goes in and out again. The ball about the
+ * middle of the longest edge with sqrt 3 / 2 of its length holds the whole triangle, so that a triangle with no edge to halve is short or
+ * provably on one side. */
 static bool halve(const struct bend *b, const struct corner *p, const struct corner *q, struct corner *middle)
 {
 	double length = vec_length(vec_sub(q->p, p->p)), r = surroundings * length;
-	if (length <= b->longest)
-		return false;
 	middle->p = vec_scale(vec_add(p->p, q->p), 0.5);
 	if (!ball_meets(middle->p, r, &b->leaf->box))
 		return false;
 	middle->f = bend_field(b, middle->p);
+	if (length <= b->longest)
+		return (p->f <= 0) == (q->f <= 0) && (middle->f <= 0) != (p->f <= 0);
 	double reach = pov_shape_reach(b->leaf->shape, matrix_point(middle->p, &b->leaf->back), r * b->leaf->squeeze);
 	return !(fabs(middle->f) > reach);
 }

@@ -44,7 +44,7 @@ struct pov_shape {
 	double (*reach)(const struct pov_solid *s, struct vec p, double r);
 	double slope;
 
-	/* The thickness of its thinnest part: cuts are finer than that. NULL: the longest side of its bounds. */
+	/* The width of what is most curved in it, such as a diameter: cuts are finer than that. NULL: the longest side of its bounds. */
 	double (*feature)(const struct pov_solid *s);
 
 	/* Its surface; memory that cannot be had sets out->lost. */

@@ -99,8 +99,7 @@ static double cone_field(const struct pov_solid *s, struct vec p)
 
 static double cone_feature(const struct pov_solid *s)
 {
-	const struct pov_cone *c = &s->shape.cone;
-	return fmin(2 * fmax(c->radius[0], c->radius[1]), 2 * vec_length(vec_sub(c->end[1], c->end[0])));
+	return 2 * fmax(s->shape.cone.radius[0], s->shape.cone.radius[1]);
 }
 
 static struct vec between(const struct vec *p, int i, int n)

@@ -24,8 +24,8 @@ struct pov_term {
 	bool cut;     /* set when something was cut by it other than exactly */
 	struct box box, extent; /* of the set; of its surface */
 
-	/* Leaves. bound: where the surface may be at most (bounded_by). halves: planes and boxes, as half spaces. feature: thickness of the
-	 * thinnest part. squeeze: the most 'back' stretches. */
+	/* Leaves. bound: where the surface may be at most (bounded_by). halves: planes and boxes, as half spaces. feature: width of what is
+	 * most curved in it. squeeze: the most 'back' stretches. */
 	const struct pov_solid *shape;
 	struct matrix place, back;
 	double feature, squeeze;
