@@ -25,37 +25,60 @@ void pov_outline_close(struct pov_outline *o)
 	if (o->loops + 2 > o->loop_room) {
 		size_t room = o->loop_room ? 2 * o->loop_room : 8;
 		size_t *grown = arena_grow(o->mem, o->first, o->first ? o->loops + 1 : 0, room, sizeof *grown);
-		o->lost = o->lost || !grown;
+		double (*reach)[4] = arena_grow(o->mem, o->reach, o->loops, room, sizeof *reach);
+		o->lost = o->lost || !grown || !reach;
 		if (o->lost)
 			return;
 		o->first = grown;
+		o->reach = reach;
 		o->loop_room = room;
 	}
 	size_t start = o->first[o->loops];
 	if (o->count > start + 1 && o->at[o->count - 1][0] == o->at[start][0] && o->at[o->count - 1][1] == o->at[start][1])
 		o->count--;
-	if (o->count < start + 3)
+	if (o->count < start + 3) {
 		o->count = start;
-	else
-		o->first[++o->loops] = o->count;
+		return;
+	}
+	double *r = o->reach[o->loops];
+	r[0] = r[1] = INFINITY;
+	r[2] = r[3] = -INFINITY;
+	for (size_t i = start; i < o->count; i++)
+		for (int axis = 0; axis < 2; axis++) {
+			r[axis] = fmin(r[axis], o->at[i][axis]);
+			r[2 + axis] = fmax(r[2 + axis], o->at[i][axis]);
+		}
+	o->first[++o->loops] = o->count;
+}
+
+/* Square of the distance from what a loop reaches. */
+static double away(const double *r, double x, double y)
+{
+	double u = fmax(0, fmax(r[0] - x, x - r[2])), v = fmax(0, fmax(r[1] - y, y - r[3]));
+	return u * u + v * v;
 }
 
 bool pov_outline_inside(const struct pov_outline *o, double x, double y)
 {
 	bool inside = false;
-	for (size_t l = 0; l < o->loops; l++)
+	for (size_t l = 0; l < o->loops; l++) {
+		if (away(o->reach[l], x, y) > 0)
+			continue;
 		for (size_t i = o->first[l]; i < o->first[l + 1]; i++) {
 			const double *a = o->at[i], *b = o->at[pov_outline_next(o, l, i)];
 			if ((a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
 				inside = !inside;
 		}
+	}
 	return inside;
 }
 
 double pov_outline_distance(const struct pov_outline *o, double x, double y)
 {
 	double least = INFINITY;
-	for (size_t l = 0; l < o->loops; l++)
+	for (size_t l = 0; l < o->loops; l++) {
+		if (away(o->reach[l], x, y) >= least)
+			continue;
 		for (size_t i = o->first[l]; i < o->first[l + 1]; i++) {
 			const double *a = o->at[i], *b = o->at[pov_outline_next(o, l, i)];
 			double u = b[0] - a[0], v = b[1] - a[1], s = ((x - a[0]) * u + (y - a[1]) * v) / (u * u + v * v);
@@ -63,6 +86,7 @@ double pov_outline_distance(const struct pov_outline *o, double x, double y)
 			double dx = x - a[0] - s * u, dy = y - a[1] - s * v;
 			least = fmin(least, dx * dx + dy * dy);
 		}
+	}
 	return pov_outline_inside(o, x, y) ? -sqrt(least) : sqrt(least);
 }
 

@@ -5,11 +5,12 @@
 #include "base/arena.h"
 #include "io/pov_solid.h"
 
-/* Loop l has the points at[first[l] .. first[l + 1]), its last one joined to its first. Arrays of an arena; zero-initialise to
+/* Loop l has the points at[first[l] .. first[l + 1]), its last one joined to its first, and reaches from reach[l][0], reach[l][1] to
+ * reach[l][2], reach[l][3]. Arrays of an arena; zero-initialise to
  * open. lost: memory ran out, nothing more is added. */
 struct pov_outline {
 	struct arena *mem;
-	double (*at)[2];
+	double (*at)[2], (*reach)[4];
 	size_t *first; /* loops + 1 */
 	size_t loops, count, room, loop_room;
 	bool lost;
