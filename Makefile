@@ -5,11 +5,13 @@ BUILD   := build/$(if $(SAN),$(subst $(comma),-,$(SAN)),plain)
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
 CF       = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(OPT) -g -ffp-contract=off -pthread -Isrc -I. \
            $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all) $(CFLAGS)
-# Libraries that are used where they are installed: fonts, and JPEG images, of POV-Ray scenes.
-FOUND   := $(foreach p,freetype2 libjpeg,$(shell pkg-config --exists $p 2>/dev/null && echo $p))
-LIBS    := -lyaml -lpng -lz -lm $(foreach p,$(FOUND),$(shell pkg-config --libs $p))
+# Libraries that are used where they are installed: fonts and JPEG images of POV-Ray scenes, mesh formats.
+FOUND   := $(foreach p,freetype2 libjpeg assimp,$(shell pkg-config --exists $p 2>/dev/null && echo $p))
+LIBS    := $(if $(filter assimp,$(FOUND)),-lassimp) -lyaml -lpng -lz -lm \
+           $(foreach p,$(filter-out assimp,$(FOUND)),$(shell pkg-config --libs $p))
 FLOORS  := base geom scene spd io accel cost trace batch report cli
-PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev gnuplot-nox pkg-config libfreetype-dev libjpeg-dev
+PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev gnuplot-nox pkg-config libfreetype-dev \
+            libjpeg-dev libassimp-dev
 VERSION := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
 
 OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c))
@@ -71,6 +73,8 @@ $(BUILD)/tests/check_pov: $(BUILD)/tests/check_pov.o $(OBJ)
 $(BUILD)/tests/check_pov.o: CFLAGS += -D_DEFAULT_SOURCE
 
 $(BUILD)/tests/bench.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
+
+$(BUILD)/src/io/mesh_import.o: CFLAGS += $(if $(filter assimp,$(FOUND)),-DHAVE_ASSIMP)
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)

@@ -55,8 +55,10 @@ static void fill(struct scene *s, const struct spd_options *o)
 	scene_add_light(s, vec(1, -4, 4));
 	scene_add_light(s, vec(-3, 1, 5));
 	spd_add_material(s, (struct spd_material){ { 1, 0.75, 0.33 }, 0.8, 0, 0, 0, 1 });
+	spd_note_finish(s, 0.2, 0);
 	spd_add_quad(s, vec(12, 12, -0.5), vec(-12, 12, -0.5), vec(-12, -12, -0.5), vec(12, -12, -0.5));
 	spd_add_material(s, (struct spd_material){ { 1, 0.9, 0.7 }, 0.5, 0.5, 37, 0, 1 });
+	spd_note_finish(s, 0, 0.5);
 	struct flake f = { .scene = s, .options = o, .straight = o->variant == SPD_PRE2021 ? 1.0 : 0.9999 };
 	set_offsets(&f);
 	add(&f, o->size, vec(0, 0, 0), 0.5, vec(0, 0, 1));

@@ -4,6 +4,7 @@
 
 #include "geom/matrix.h"
 #include "scene/tessellate.h"
+#include "spd/notes.h"
 #include "spd/spd.h"
 
 #define SPD_PI 3.141592653589793

@@ -58,6 +58,7 @@ static void fill(struct scene *s, const struct spd_options *o)
 	scene_add_light(s, vec(-1, -4, 2));
 	scene_add_light(s, vec(-1.111, -2.121, 2.626));
 	spd_add_material(s, (struct spd_material){ { 1, 0.85, 0.7 }, 0.3, 0.6, 37, 0, 0 });
+	spd_note_finish(s, 0, 0.3);
 	spd_add_quad(s, vec(2, 2, 0), vec(-2, 2, 0), vec(-2, -2, 0), vec(2, -2, 0));
 	int size = (int)o->size;
 	double outer = 1.0 / (size - (size - 1) * EDGE / 2), start = -1 + outer, step = outer * (2 - EDGE);

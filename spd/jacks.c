@@ -23,6 +23,8 @@ static void add_jack(struct scene *s, const struct spd_options *o, const struct 
 		spd_add_sphere(s, &own, center, 0.2);
 	}
 	struct matrix smaller = matrix_scale(0.75, 0.75, 0.75), m = matrix_multiply(&smaller, around);
+	if (!o->tessellate)
+		spd_note_placed(s, first, &m);
 	spd_transform(s, first, &m);
 }
 
@@ -45,6 +47,7 @@ static void fill(struct scene *s, const struct spd_options *o)
 	struct matrix x = matrix_rotation(0, -30 * SPD_PI / 180), y = matrix_rotation(1, -20 * SPD_PI / 180);
 	struct matrix all = matrix_multiply(&y, &x);
 	spd_add_material(s, (struct spd_material){ { 0.737, 0.561, 0.561 }, 0.7, 0.7, 20, 0, 1 });
+	spd_note_finish(s, 0.1, 0.4);
 	add(s, o, &all, 1);
 }
 

@@ -18,6 +18,7 @@ static void fill(struct scene *s, const struct spd_options *o)
 		const int at[3] = { i / (size + 1) / (size + 1), i / (size + 1) % (size + 1), i % (size + 1) };
 		struct vec p = vec((double)at[0] / size, (double)at[1] / size, (double)at[2] / size);
 		spd_add_material(s, (struct spd_material){ { 0.9, 0.9, 0.9 }, 0.5, 0.5, 37, 0, 0 });
+		spd_note_finish(s, 0, 0.5);
 		spd_add_sphere(s, o, p, ball);
 		for (int axis = 0; axis < 3; axis++) {
 			if (at[axis] == size)
@@ -25,6 +26,7 @@ static void fill(struct scene *s, const struct spd_options *o)
 			double color[3] = { 0.1, 0.1, 0.1 };
 			color[axis] = 0.9;
 			spd_add_material(s, (struct spd_material){ { color[0], color[1], color[2] }, 0.99, 0, 0, 0, 0 });
+			spd_note_finish(s, 0.1, 0);
 			struct vec base = p, apex = p;
 			base.a[axis] += gap;
 			apex.a[axis] = p.a[axis] + 1.0 / size - gap;

@@ -81,6 +81,7 @@ static void fill(struct scene *s, const struct spd_options *o)
 	spd_set_view(s, vec(-1.6, 1.6, 1.7), vec(0, 0, 0), vec(0, 0, 1), 45, 0.01);
 	scene_add_light(s, vec(-100, -100, 100));
 	spd_add_material(s, (struct spd_material){ { 1, 1, 1 }, 0.1, 0.1, 6.7, 0.9, 1.5 });
+	spd_note_finish(s, 0, 0.4);
 	add_balls(s, o);
 	spd_add_material(s, (struct spd_material){ { 0.5, 0.45, 0.35 }, 1, 0, 0, 0, 0 });
 	double ratio = 2 / exp(log(2) / (2.2 - 1));

@@ -74,6 +74,7 @@ static void fill(struct scene *s, const struct spd_options *o)
 	scene_set_view(s, vec(0, 5, -10), vec(0, 0, 0), vec(0, 1, 0), 30, 0.001, 256, 256);
 	scene_add_light(s, vec(0, 50, -10));
 	spd_add_material(s, (struct spd_material){ { 1, 0, 0 }, 0.7, 0, 10, 0, 1 });
+	spd_note_finish(s, 0.1, 0.7);
 	float u = 0, step_u = knots_u[ROWS] / STEPS_U, step_v = knots_v[COLUMNS] / STEPS_V;
 	for (int i = 0; i <= STEPS_U; i++, u += step_u) {
 		float v = 0;

@@ -22,8 +22,10 @@ static void add_rings(struct scene *s, const struct spd_options *o, const struct
 {
 	static const struct color colors[6] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 0, 1, 1 }, { 1, 0, 1 }, { 1, 1, 0 } };
 	for (int e = 0; e < POINTS; e++) {
-		if (e % 5 == 0)
+		if (e % 5 == 0) {
 			spd_add_material(s, (struct spd_material){ colors[e / 5], 0.5, 0.2, 37, 0, 0 });
+			spd_note_finish(s, 0, 0.3);
+		}
 		struct vec base = vec_add(d[e], offset), apex = vec_add(d[e % 5 ? e - 1 : e + 4], offset);
 		spd_add_cone(s, o, base, THICKNESS, apex, THICKNESS);
 		spd_add_sphere(s, o, base, THICKNESS);

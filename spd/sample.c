@@ -20,6 +20,7 @@ static void add_torus(struct scene *s, const struct spd_options *o, struct vec c
 {
 	struct matrix frame = make_frame(center, normal);
 	int n = 4 * (int)o->resolution;
+	size_t first = s->object_count;
 	double delta = 2 * SPD_PI / n, u = 0;
 	for (int i = 0; i < n; i++, u += delta) {
 		double v = 0;
@@ -34,12 +35,15 @@ static void add_torus(struct scene *s, const struct spd_options *o, struct vec c
 			scene_add_patch(s, (const struct vec[3]){ p[3], p[2], p[0] }, (const struct vec[3]){ q[3], q[2], q[0] }, 3);
 		}
 	}
+	if (!o->tessellate)
+		spd_note_torus(s, first, center, normal, 2, 0.5);
 }
 
-static void add_disc(struct scene *s, struct vec center, struct vec normal, double radius)
+static void add_disc(struct scene *s, const struct spd_options *o, struct vec center, struct vec normal, double radius)
 {
 	enum { QUARTER = 4 };
 	struct matrix frame = make_frame(center, normal);
+	size_t first = s->object_count;
 	double delta = 2 * SPD_PI / (4 * QUARTER), t = 0;
 	for (int i = 0; i < 4 * QUARTER; i++, t += delta) {
 		struct vec p[4];
@@ -49,6 +53,8 @@ static void add_disc(struct scene *s, struct vec center, struct vec normal, doub
 		}
 		spd_add_quad(s, p[0], p[1], p[2], p[3]);
 	}
+	if (!o->tessellate)
+		spd_note_disc(s, first, center, normal, radius);
 }
 
 static void fill(struct scene *s, const struct spd_options *o)
@@ -59,12 +65,13 @@ static void fill(struct scene *s, const struct spd_options *o)
 	scene_add_light(s, vec(-10, 20, -20));
 	for (int i = 0; i < 5; i++) {
 		spd_add_material(s, (struct spd_material){ colors[i], 0.7, 0, 10, 0, 1 });
+		spd_note_finish(s, 0.1, 0.7);
 		if (i < 3)
 			add_torus(s, o, vec(i - 1, 0, 0), vec(1 - i, 1, -0.5));
 		else if (i == 3)
 			spd_add_cone(s, o, vec(0, -2, 0), 2, vec(0, 2, 0), 0.1);
 		else
-			add_disc(s, vec(0, -2, 0), vec(0, 1, 0), 4);
+			add_disc(s, o, vec(0, -2, 0), vec(0, 1, 0), 4);
 	}
 }
 

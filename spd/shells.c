@@ -8,6 +8,7 @@ static void fill(struct scene *s, const struct spd_options *o)
 	spd_set_view(s, vec(-6, -60, 35), vec(0, 8, -15), vec(0, 0, 1), 45, 0.5);
 	scene_add_light(s, vec(-100, -100, 100));
 	spd_add_material(s, (struct spd_material){ { 1, 0.8, 0.4 }, 0.8, 0.2, 10, 0, 1 });
+	spd_note_finish(s, 0, 0.5);
 	for (int i = -2 * steps / 3; i <= steps / 3; i++) {
 		double angle = 3 * 6 * SPD_PI * i / steps, r = exp(o->exponent * angle);
 		double z = o->alpha > 0 ? o->alpha * angle : o->beta * r;

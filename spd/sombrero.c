@@ -28,6 +28,7 @@ static void fill(struct scene *s, const struct spd_options *o)
 	spd_set_view(s, vec(0, 5, -8), vec(0, 0, 0), vec(0, 0, 1), 40, 0.01);
 	scene_add_light(s, vec(10, 10, -10));
 	spd_add_material(s, (struct spd_material){ { 1, 0.1, 0.1 }, 0.8, 0, 40, 0, 1 });
+	spd_note_finish(s, 0.1, 0.5);
 	struct arena scratch = { 0 };
 	float *height = NEW(&scratch, float, (size_t)n * (size_t)n);
 	if (!height) {
@@ -42,6 +43,7 @@ static void fill(struct scene *s, const struct spd_options *o)
 			spd_add_triangle(s, a, c, d);
 			spd_add_triangle(s, a, b, c);
 		}
+	spd_note_heights(s, 0, height, n);
 	arena_free(&scratch);
 }
 

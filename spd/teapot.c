@@ -102,10 +102,13 @@ static void fill(struct scene *s, const struct spd_options *o)
 	scene_add_light(s, vec(-3.1, 9.8, 12.1));
 	scene_add_light(s, vec(11.3, 5.1, 8.8));
 	spd_add_material(s, (struct spd_material){ { 1, 1, 1 }, 0.5, 0.5, 30, 0, 0 });
+	spd_note_finish(s, 0, 0.5);
 	add_squares(s, size, 1);
 	spd_add_material(s, (struct spd_material){ { 0.5, 0.5, 0.5 }, 0.5, 0.5, 30, 0, 0 });
+	spd_note_finish(s, 0, 0.5);
 	add_squares(s, size, 0);
 	spd_add_material(s, (struct spd_material){ { 1, 0.5, 0.1 }, 0.75, 0.25, 37, 0, 0 });
+	spd_note_finish(s, 0, 0.25);
 	for (int i = 0; i < TEAPOT_PATCHES; i++)
 		add_patch(s, teapot_patches[i], size);
 }

@@ -29,7 +29,7 @@ same() { expect 0 '' cmp "$1" "$2"; }
 # The words it understands.
 expect 0 'raycost run' "$raycost" --help
 expect 0 'raycost ' "$raycost" --version
-for command in run spd info columns; do expect 0 "usage: raycost $command" "$raycost" $command --help; done
+for command in run render report spd info view convert columns; do expect 0 "usage: raycost $command" "$raycost" $command --help; done
 expect 2 'no command given' "$raycost"
 expect 2 "no command 'fly'" "$raycost" fly
 expect 2 'no job file given' "$raycost" run
@@ -56,7 +56,55 @@ gzip -dc "$work/gears.nff.gz" >"$work/unpacked.nff"
 same "$work/gears.nff" "$work/unpacked.nff"
 expect 0 '574 triangles' "$raycost" info "$work/gears.nff.gz"
 expect 1 'nowhere' "$raycost" spd tetra -o "$work/nowhere/x.nff"
-for bad in tests/bad/*.nff tests/bad/*.nff.gz; do expect 2 "$(cat "$bad.expect")" "$raycost" info --strict "$bad"; done
+for bad in tests/bad/*.nff tests/bad/*.nff.gz tests/bad/*.aff; do expect 2 "$(cat "$bad.expect")" "$raycost" info --strict "$bad"; done
+
+# Other formats: what each holds comes back; POV-Ray's image lands beside its scene; what cannot be is said before anything is read.
+expect 0 '' "$raycost" convert "$work/gears.nff.gz" "$work/back.nff" --digits 6
+same "$work/gears.nff" "$work/back.nff"
+expect 0 '' "$raycost" convert "$work/gears.nff" "$work/gears.pov.gz"
+expect 0 '' "$raycost" convert "$work/gears.nff" "$work/gears.obj.gz"
+expect 0 'newmtl m1' cat "$work/gears.mtl"
+expect 0 '' "$raycost" spd sombrero -r pov -o "$work/sombrero.pov"
+expect 0 'hf000.tga' grep tga "$work/sombrero.pov"
+expect 0 '3090' wc -c "$work/hf000.tga"
+expect 0 '// POV-Ray 1.0' "$raycost" spd tetra -s 1 -r 2
+expect 2 '-r rib: no such format; known are nff, pov (pov3), pov1, pov2, pov3' "$raycost" spd tetra -r rib
+expect 2 'no writer for mesh; known endings are: nff aff pov inc obj ply' "$raycost" convert nowhere.nff "$work/x.stl"
+expect 2 'IN and OUT are needed' "$raycost" convert "$work/gears.nff"
+expect 2 'no reader for this kind of file; known endings are: nff aff' "$raycost" info tests/bad/unknown.txt
+expect 1 'nowhere' "$raycost" convert "$work/gears.nff" "$work/nowhere/x.ply"
+expect 0 '' "$raycost" view "$work/gears.nff" -o "$work/gears.png" --width 40 --height 30
+expect 0 'PNG' head -c 8 "$work/gears.png"
+expect 2 '-o IMAGE.png is needed' "$raycost" view "$work/gears.nff"
+printf 'f 1 1 1 1 0 1 0 1\ntt wood 0 0 0 0 0 1 0 0 1 0 0 1 0 0 1\ni part.aff\nd 1\n' >"$work/main.aff"
+mkdir "$work/parts"
+printf 's 0 0 0 1\ns 0 0 0 1\n' >"$work/parts/part.aff"
+expect 2 'part.aff: no such file there' "$raycost" info "$work/main.aff"
+expect 0 'primitives  3: 1 triangles, 2 spheres' "$raycost" info "$work/main.aff" -L "$work/parts"
+expect 0 'skipped     1 records, the first in line 4' "$raycost" info "$work/main.aff" -L "$work/parts"
+expect 0 'duplicates  1 equal' "$raycost" info "$work/main.aff" -L "$work/parts"
+expect 2 "'d' is not part of a scene that stands still" "$raycost" info "$work/main.aff" --strict -L "$work/parts"
+expect 2 '--planes fold: not a value' "$raycost" info "$work/main.aff" --planes fold
+expect 2 '-L needs a value' "$raycost" info "$work/main.aff" -L
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$work/one.obj"
+if "$raycost" info "$work/one.obj" >/dev/null 2>&1; then
+	expect 0 '574 triangles' "$raycost" info "$work/gears.obj.gz"
+	expect 0 '' "$raycost" convert "$work/one.obj" "$work/one.ply"
+	expect 0 '1 triangles' "$raycost" info "$work/one.ply"
+	printf 'f 1 2 999\nv 0 0 0\n' >"$work/damaged.obj"
+	expect 2 'damaged.obj: ' "$raycost" info "$work/damaged.obj"
+else
+	expect 2 'one.obj: this format needs Assimp: install libassimp-dev' "$raycost" info "$work/one.obj"
+fi
+cat >"$work/formats.yaml" <<'JOB'
+name: formats
+scenes: [{file: main.aff, include: parts, resolution: [1, 2], curves: tessellate}]
+structures: [octree: {max_depth: 2}]
+measure: [{rays: invariant, count: 1000}]
+JOB
+expect 0 '2 rows, 0 failed' "$raycost" run "$work/formats.yaml" -o "$work/formats"
+sed 's/include: parts/include: ..\/parts/' "$work/formats.yaml" >"$work/outside.yaml"
+expect 2 "lies outside the job file's folder" "$raycost" run "$work/outside.yaml" -o "$work/formats"
 
 # A job: the same bytes for 1, 2 and 7 threads; a second time nothing is done.
 run() { "$raycost" run jobs/smoke.yaml "$@"; }

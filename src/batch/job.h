@@ -6,6 +6,7 @@
 #include "base/arena.h"
 #include "base/err.h"
 #include "batch/measure.h"
+#include "io/read.h"
 #include "scene/primitives.h"
 #include "spd/spd.h"
 
@@ -14,10 +15,14 @@ struct scene_spec {
 	const char *name;                 /* of one scene only in the job; names its file in scenes/ */
 	const struct spd_family *family;  /* NULL: a file */
 	const char *path;                 /* NULL: generated */
-	struct spd_options spd;           /* also the resolution of curves tessellated here */
-	bool soup, strict;
+	struct spd_options spd;           /* generated: also the resolution of curves tessellated here */
+	bool soup;
+	struct read_options read;         /* of a file */
 	int curves;                       /* enum curves */
 };
+
+/* R of curves that become triangles. */
+int64_t scene_resolution(const struct scene_spec *s);
 
 struct structure_spec {
 	const struct accel_ops *ops;

@@ -1,6 +1,8 @@
 /* The scenes of a job: generated families and files, their options and names. */
 #include "batch/job_reader.h"
 
+#include "scene/tessellate.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,10 +13,9 @@ static const char *const curves_words[] = { "keep", "tessellate", NULL };
 /* What a scene entry can say besides the options of its family. */
 #define AT(field) offsetof(struct scene_spec, field)
 static const struct key file_keys[] = {
-	{ "file", KEY_TEXT, AT(path), 0, 0, 0, NULL, "an NFF file, plain or gzipped, relative to the job file" },
+	{ "file", KEY_TEXT, AT(path), 0, 0, 0, NULL, "a scene file of any known format, plain or gzipped, relative to the job file" },
 	{ "curves", KEY_WORD, AT(curves), 0, 0, CURVES_KEEP, curves_words, "spheres as they are, or as triangles" },
-	{ "resolution", KEY_INT, AT(spd.resolution), 1, 1000, 3, NULL, "of tessellated curves" },
-	{ "strict", KEY_BOOL, AT(strict), 0, 1, 0, NULL, "refuse what a tolerant reader skips" },
+	READ_KEYS(struct scene_spec, read),
 	{ 0 }
 };
 static const struct key made_keys[] = {
@@ -23,6 +24,11 @@ static const struct key made_keys[] = {
 	{ 0 }
 };
 #undef AT
+
+int64_t scene_resolution(const struct scene_spec *s)
+{
+	return !s->path ? s->spd.resolution : s->read.resolution ? s->read.resolution : SPD_RESOLUTION;
+}
 
 /* "family-size" and whatever differs from the defaults, or the file's name without its endings. */
 static const char *name_scene(struct job_reader *r)
@@ -33,6 +39,10 @@ static const char *name_scene(struct job_reader *r)
 	if (s->path) {
 		const char *slash = strrchr(s->path, '/'), *base = slash ? slash + 1 : s->path;
 		n = (size_t)snprintf(name, sizeof name, "%.*s", (int)(strcspn(base, ".") ? strcspn(base, ".") : strlen(base)), base);
+		if (s->read.resolution && s->curves == CURVES_KEEP && n < sizeof name)
+			n += (size_t)snprintf(name + n, sizeof name - n, "-resolution-%lld", (long long)s->read.resolution);
+		if (s->read.planes != PLANES_CLIP && n < sizeof name)
+			n += (size_t)snprintf(name + n, sizeof name - n, "-planes-%s", read_planes_words[s->read.planes]);
 	} else {
 		int64_t size = s->spd.size == SPD_DEFAULT_SIZE ? s->family->default_size : s->spd.size;
 		n = (size_t)snprintf(name, sizeof name, "%s", s->family->name);
@@ -53,7 +63,7 @@ static const char *name_scene(struct job_reader *r)
 		n += (size_t)snprintf(name + n, sizeof name - n, "%s", s->soup ? "-soup" : "");
 	}
 	if (s->curves == CURVES_TESSELLATE && n < sizeof name)
-		n += (size_t)snprintf(name + n, sizeof name - n, "-curves-%lld", (long long)s->spd.resolution);
+		n += (size_t)snprintf(name + n, sizeof name - n, "-curves-%lld", (long long)scene_resolution(s));
 	return arena_text(&r->job->mem, name, strlen(name));
 }
 
@@ -161,11 +171,35 @@ static bool leads_out(const char *path)
 	return false;
 }
 
+/* The folders of a list, those that are relative taken from the job file's; NULL after a fault. */
+static const char *place_folders(struct job_reader *r, const char *list)
+{
+	char out[4096];
+	size_t n = 0;
+	*out = '\0';
+	for (const char *p = list; *p; p += strcspn(p, ":"), p += *p == ':') {
+		char folder[2048];
+		snprintf(folder, sizeof folder, "%.*s", (int)strcspn(p, ":"), p);
+		if (!r->options->allow_outside && leads_out(folder)) {
+			values_fault(&r->values, r->line, "%s lies outside the job file's folder; --allow-outside lets it", folder);
+			return NULL;
+		}
+		if (n < sizeof out)
+			n += (size_t)snprintf(out + n, sizeof out - n, "%s%s%s", n ? ":" : "", *folder == '/' ? "" : r->folder, folder);
+	}
+	const char *kept = arena_text(&r->job->mem, out, strlen(out));
+	if (!kept)
+		err_memory(r->values.err, "job");
+	return kept;
+}
+
 static int emit_file(void *ctx)
 {
 	struct job_reader *r = ctx;
-	const char *given = r->scene.path;
+	const char *given = r->scene.path, *folders = r->scene.read.include;
 	char path[4096];
+	if (folders && !(r->scene.read.include = place_folders(r, folders)))
+		return -1;
 	if (!r->options->allow_outside && leads_out(given))
 		return values_fault(&r->values, r->line, "%s lies outside the job file's folder; --allow-outside lets it", given);
 	snprintf(path, sizeof path, "%s%s", *given == '/' ? "" : r->folder, given);
@@ -174,6 +208,7 @@ static int emit_file(void *ctx)
 	r->scene.path = arena_text(&r->job->mem, path, strlen(path));
 	int status = r->scene.path ? emit_scene(r) : err_memory(r->values.err, "job");
 	r->scene.path = given;
+	r->scene.read.include = folders;
 	return status;
 }
 

@@ -1,16 +1,16 @@
 #include "batch/load.h"
 
+#include "io/nff.h"
+
 /* Content of a scene file at the most, unpacked. */
 static const size_t bytes_most = (size_t)8 << 30;
 
-enum { SPD_DIGITS = 6, EXACT_DIGITS = 17 };
-
-int load_file(struct scene *s, const char *path, bool strict, struct nff_skipped *skipped, struct err *e)
+int load_file(struct scene *s, const char *path, const struct read_options *o, struct read_summary *summary, struct err *e)
 {
 	struct text text = { 0 };
 	int status = text_read_file(&text, path, bytes_most, e);
 	if (status == 0)
-		status = nff_read(s, path, text.bytes, text.size, strict, skipped, e);
+		status = format_read(s, path, text.bytes, text.size, o, summary, e);
 	text_free(&text);
 	return status;
 }
@@ -23,7 +23,7 @@ static int write_generated(struct text *text, const struct scene_spec *spec, str
 	if (status == 0 && spec->soup)
 		status = spd_soup(&soup, &made, (int)spec->spd.resolution, e);
 	if (status == 0)
-		status = nff_write(spec->soup ? &soup : &made, SPD_DIGITS, text, e);
+		status = nff_write(spec->soup ? &soup : &made, DIGITS_SPD, text, e);
 	scene_free(&made);
 	scene_free(&soup);
 	return status;
@@ -33,18 +33,19 @@ int load_scene(struct primitives *p, struct scene *setting, struct text *text, c
 {
 	struct scene s = { 0 };
 	struct nff_skipped skipped;
+	struct read_summary summary;
 	int status;
 	if (spec->path) {
-		status = load_file(&s, spec->path, spec->strict, &skipped, e);
+		status = load_file(&s, spec->path, &spec->read, &summary, e);
 		if (status == 0)
-			status = nff_write(&s, EXACT_DIGITS, text, e);
+			status = nff_write(&s, DIGITS_EXACT, text, e);
 	} else {
 		status = write_generated(text, spec, e);
 		if (status == 0)
 			status = nff_read(&s, spec->name, text->bytes, text->size, true, &skipped, e);
 	}
 	if (status == 0)
-		status = primitives_make(p, &s, (enum curves)spec->curves, (int)spec->spd.resolution,
+		status = primitives_make(p, &s, (enum curves)spec->curves, (int)scene_resolution(spec),
 		                         spec->path ? spec->path : spec->name, e);
 	if (status == 0) {
 		scene_copy_setting(setting, &s);

@@ -7,9 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-extern const struct cli_command cli_run, cli_render, cli_report, cli_spd, cli_info, cli_columns;
+extern const struct cli_command cli_run, cli_render, cli_report, cli_spd, cli_info, cli_view, cli_convert, cli_columns;
 
-const struct cli_command *const cli_commands[] = { &cli_run, &cli_render, &cli_report, &cli_spd, &cli_info, &cli_columns, NULL };
+const struct cli_command *const cli_commands[] = { &cli_run,  &cli_render,  &cli_report,  &cli_spd, &cli_info,
+	                                           &cli_view, &cli_convert, &cli_columns, NULL };
 
 int cli_usage(struct err *e, const char *command, const char *fmt, ...)
 {
@@ -124,6 +125,8 @@ int cli_main(struct cli *cli, int count, char **arguments)
 {
 	struct err e = { 0 }, printing = { 0 };
 	int status = run_command(cli, count, arguments, &e);
+	if (status == STATUS_ENVIRONMENT && *cli->stop)
+		status = 128 + *cli->stop;
 	if (flush_output(&cli->out, &printing) != 0) {
 		fprintf(stderr, "%s\n", printing.text);
 		status = status ? status : printing.code;

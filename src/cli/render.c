@@ -2,16 +2,15 @@
 #include "base/par.h"
 #include "base/progress.h"
 #include "batch/load.h"
-#include "cli/cli.h"
+#include "cli/reading.h"
 #include "io/png.h"
-#include "scene/tessellate.h"
 #include "trace/render.h"
 
 #include <inttypes.h>
 #include <string.h>
 
 static const char help[] =
-	"usage: raycost render SCENE.nff[.gz] -o IMAGE.png [options]\n\n"
+	"usage: raycost render SCENE -o IMAGE.png [options]\n\n"
 	"Render a scene and print what its rays cost, by class.\n\n"
 	"  -o IMAGE.png            where the image goes; without it only the costs are printed\n"
 	"  --preset spd            the procedure of the SPD scenes: rays through pixel corners, depth 5\n"
@@ -21,10 +20,11 @@ static const char help[] =
 	"  --shadows facing        shadow rays only to lights that the surface faces, not to all\n"
 	"  --weight X              rays that could add less than this share to a pixel are not shot (0)\n"
 	"  --structure NAME        octree or list; its options follow, e.g. --max_objects 5 --root box\n"
-	"  --threads N             threads (default: all processors); the results do not depend on it\n";
+	"  --threads N             threads (default: all processors); the results do not depend on it\n" READING_HELP;
 
 struct arguments {
 	const char *scene, *image;
+	struct reading reading;
 	struct render_options render;
 	const struct accel_ops *ops;
 	_Alignas(16) unsigned char options[ACCEL_OPT_MOST];
@@ -46,6 +46,12 @@ static int parse(struct arguments *a, int count, char **words, struct err *e)
 	for (int i = 0; i < count; i++) {
 		const char *word = words[i], *value = i + 1 < count ? words[i + 1] : NULL;
 		long long n;
+		int status;
+		if (reading_parse(&a->reading, "render", count, words, &i, &status, e)) {
+			if (status != 0)
+				return status;
+			continue;
+		}
 		if (*word != '-' && !a->scene) {
 			a->scene = word;
 			continue;
@@ -118,15 +124,15 @@ static int run(struct cli *cli, int count, char **words, struct err *e)
 	struct arguments a = { .ops = accel_find("octree"), .threads = par_processors() };
 	struct scene scene = { 0 };
 	struct primitives primitives = { 0 };
-	struct nff_skipped skipped;
+	struct read_summary summary;
 	key_defaults(render_keys, &a.render);
 	key_defaults(a.ops->keys, a.options);
 	int status = parse(&a, count, words, e);
 	if (status != 0)
 		return status;
 	render_resolve(&a.render);
-	if (load_file(&scene, a.scene, false, &skipped, e) == 0 &&
-	    primitives_make(&primitives, &scene, CURVES_KEEP, SPD_RESOLUTION, a.scene, e) == 0)
+	if (load_file(&scene, a.scene, &a.reading.options, &summary, e) == 0 &&
+	    primitives_make(&primitives, &scene, CURVES_KEEP, reading_resolution(&a.reading), a.scene, e) == 0)
 		render(&a, cli, &scene, &primitives, e);
 	primitives_free(&primitives);
 	scene_free(&scene);

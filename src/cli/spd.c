@@ -1,16 +1,22 @@
 /* raycost spd FAMILY */
 #include "cli/cli.h"
+#include "io/format.h"
 #include "io/nff.h"
+#include "io/spd_pov.h"
+#include "spd/notes.h"
 #include "spd/spd.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const char help[] =
-	"usage: raycost spd FAMILY [-s SIZE] [-c | -t [R]] [--soup] [-o FILE[.gz]] [options]\n\n"
+	"usage: raycost spd FAMILY [-s SIZE] [-c | -t [R]] [-r FORMAT] [--soup] [-o FILE[.gz]] [options]\n\n"
 	"Print a scene as NFF, byte for byte as the original SPD programs do. 'raycost spd' lists the families.\n\n"
 	"  -s SIZE             size; each family has its own default\n"
 	"  -c                  spheres and cones as such (the default)\n"
 	"  -t [R]              spheres and cones as triangles, at resolution R (3)\n"
+	"  -r FORMAT           nff (the default), or pov1, pov2, pov3: POV-Ray scenes as the programs' -r 2, 3, 4; sombrero's refer to\n"
+	"                      an image hf000.tga, written into the folder of FILE, or the current one\n"
 	"  --soup              everything as triangles of the form 'p 3'\n"
 	"  -o FILE             into a file, gzipped if it ends in .gz; default stdout\n"
 	"  --variant pre2021   balls: as programs before 2021 placed them\n"
@@ -23,6 +29,7 @@ struct arguments {
 	const struct spd_family *family;
 	struct spd_options options;
 	bool soup;
+	int pov; /* version of POV-Ray; 0: NFF */
 	const char *path;
 };
 
@@ -57,6 +64,20 @@ static int set_option(struct arguments *a, const char *option, const char *key, 
 	return 0;
 }
 
+/* Which POV-Ray a format is for; 0: NFF; -1: unknown. The numbers are the original programs'. */
+static int find_pov(const char *format)
+{
+	static const struct {
+		const char *name;
+		int version;
+	} known[] = { { "nff", 0 },  { "1", 0 }, { "pov1", 1 }, { "2", 1 }, { "pov2", 2 },
+		        { "3", 2 },    { "pov3", 3 }, { "pov", 3 }, { "4", 3 } };
+	for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+		if (strcmp(known[i].name, format) == 0)
+			return known[i].version;
+	return -1;
+}
+
 static int parse(struct arguments *a, int count, char **words, struct err *e)
 {
 	for (int i = 1; i < count; i++) {
@@ -80,6 +101,10 @@ static int parse(struct arguments *a, int count, char **words, struct err *e)
 				a->options.resolution = n;
 				i++;
 			}
+		} else if (strcmp(word, "-r") == 0 && next) {
+			if ((a->pov = find_pov(next)) < 0)
+				return cli_usage(e, "spd", "-r %s: no such format; known are nff, pov (pov3), pov1, pov2, pov3", next);
+			i++;
 		} else if (strcmp(word, "--soup") == 0) {
 			a->soup = true;
 		} else if (strcmp(word, "-o") == 0 && next) {
@@ -92,16 +117,38 @@ static int parse(struct arguments *a, int count, char **words, struct err *e)
 	return 0;
 }
 
+/* The image of a height field, beside the scene's file. */
+static int write_image(const struct arguments *a, const struct scene *s, struct err *e)
+{
+	char path[4096];
+	struct text image = { 0 };
+	const char *slash = a->path ? strrchr(a->path, '/') : NULL;
+	spd_pov_image(s, &image);
+	int status = 0, n = snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash + 1 - a->path) : 0, a->path ? a->path : "",
+	                             spd_pov_image_name);
+	if (image.lost)
+		status = err_memory(e, path);
+	else if (image.size)
+		status = n < (int)sizeof path ? text_write_file(&image, path, e) : err_at(e, STATUS_ENVIRONMENT, a->path, 0, "path too long");
+	text_free(&image);
+	return status;
+}
+
 static int generate(const struct arguments *a, struct text *out, struct err *e)
 {
-	struct scene made = { 0 }, soup = { 0 };
+	struct spd_notes notes = { 0 };
+	struct scene made = { .notes = a->pov && !a->soup ? &notes : NULL }, soup = { 0 };
 	int status = spd_generate(&made, a->family, &a->options, e);
 	if (status == 0 && a->soup)
 		status = spd_soup(&soup, &made, (int)a->options.resolution, e);
+	const struct scene *s = a->soup ? &soup : &made;
 	if (status == 0)
-		status = nff_write(a->soup ? &soup : &made, 6, out, e);
+		status = a->pov ? spd_pov_write(s, a->pov, out, e) : nff_write(s, DIGITS_SPD, out, e);
+	if (status == 0 && a->pov)
+		status = write_image(a, s, e);
 	scene_free(&made);
 	scene_free(&soup);
+	spd_notes_free(&notes);
 	return status;
 }
 

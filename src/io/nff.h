@@ -11,6 +11,9 @@
  * Neighbouring corners of a polygon nearer than 1e-6 are merged as SPD does when digits is 6. 0, or -1 and *e (memory). */
 int nff_write(const struct scene *s, int digits, struct text *out, struct err *e);
 
+/* Copy a polygon's n corners to 'kept' without those nearer than 1e-6 to the next one, as SPD does; returns how many are left. */
+size_t nff_clean_corners(const struct vec *corners, size_t n, struct vec *kept);
+
 /* Tallies of what a tolerant reader passed over; first_line is where it happened first. */
 struct nff_skipped {
 	uint32_t records, first_line;
@@ -20,5 +23,8 @@ struct nff_skipped {
  * errors; else they are skipped and counted in *skipped. 0, or -1 and *e with "name:line: message". */
 int nff_read(struct scene *s, const char *name, const char *text, size_t n, bool strict, struct nff_skipped *skipped,
              struct err *e);
+
+/* Whether the text starts with an NFF keyword. */
+bool nff_is(const char *text, size_t n);
 
 #endif

@@ -1,6 +1,7 @@
 #include "io/nff.h"
 
-#include <stdio.h>
+#include "io/number.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,30 +10,10 @@ struct writer {
 	int digits;
 };
 
-/* The fewest of 15 to 17 digits that read back as the same double. */
-static void write_exact(struct text *out, double x)
-{
-	char piece[40];
-	for (int digits = 15; digits <= 17; digits++) {
-		snprintf(piece, sizeof piece, "%.*g", digits, x);
-		if (strtod(piece, NULL) == x)
-			break;
-	}
-	text_print(out, "%s", piece);
-}
-
 /* 'before', then n numbers with blanks between. */
 static void write_numbers(const struct writer *w, const char *before, const double *x, int n)
 {
-	text_add(w->out, before, strlen(before));
-	for (int i = 0; i < n; i++) {
-		if (i)
-			text_add(w->out, " ", 1);
-		if (w->digits <= 6)
-			text_print(w->out, "%.*g", w->digits, x[i]);
-		else
-			write_exact(w->out, x[i]);
-	}
+	number_write_row(w->out, before, x, n, " ", w->digits);
 }
 
 static void write_line(const struct writer *w, const char *before, const double *x, int n)
@@ -68,8 +49,7 @@ static void write_material(const struct writer *w, const struct material *m)
 	write_line(w, "f ", x, 8);
 }
 
-/* Copy a polygon's corners to 'kept' without those nearer than 1e-6 to the next one, as SPD does; returns how many are left. */
-static size_t clean_corners(const struct vec *corners, size_t n, struct vec *kept)
+size_t nff_clean_corners(const struct vec *corners, size_t n, struct vec *kept)
 {
 	memcpy(kept, corners, n * sizeof *kept);
 	for (size_t i = 0; i < n;) {
@@ -89,7 +69,7 @@ static int write_polygon(const struct writer *w, const struct vec *corners, size
 	if (!kept)
 		return -1;
 	if (w->digits <= 6)
-		n = clean_corners(corners, n, kept);
+		n = nff_clean_corners(corners, n, kept);
 	else
 		memcpy(kept, corners, n * sizeof *kept);
 	if (n >= 3)

@@ -58,6 +58,8 @@ struct object {
 
 #define NO_MATERIAL UINT32_MAX
 
+struct spd_notes;
+
 /* Arrays belong to 'mem'; zero-initialise to open, scene_free to close. 'lost' is set when memory ran out while adding:
  * adding then does nothing more, and scene_complete reports it, so that fillers need no checks of their own. */
 struct scene {
@@ -71,6 +73,7 @@ struct scene {
 	struct vec *points;
 	size_t light_count, material_count, object_count, point_count;
 	size_t light_room, material_room, object_room, point_room;
+	struct spd_notes *notes; /* what a generator is asked to tell besides (spd/notes.h), the asker's; NULL: nothing */
 };
 
 void scene_free(struct scene *s);
