@@ -293,9 +293,16 @@ static const struct format {
 	size_t size;
 	bool (*read)(struct picture *p);
 } formats[] = {
-	{ NULL, "\x89PNG", 4, picture_read_png }, { NULL, "\xff\xd8\xff", 3, picture_read_jpeg }, { "pot", "GIF8", 4, read_pot }, { NULL, "GIF8", 4, read_gif },
-	{ NULL, "BM", 2, read_bmp },      { NULL, "P2", 2, read_netpbm },         { NULL, "P3", 2, read_netpbm }, { NULL, "P5", 2, read_netpbm },
-	{ NULL, "P6", 2, read_netpbm },   { "tga", "", 0, read_tga },
+	{ NULL, "\x89PNG", 4, picture_read_png },
+	{ NULL, "\xff\xd8\xff", 3, picture_read_jpeg },
+	{ "pot", "GIF8", 4, read_pot },
+	{ NULL, "GIF8", 4, read_gif },
+	{ NULL, "BM", 2, read_bmp },
+	{ NULL, "P2", 2, read_netpbm },
+	{ NULL, "P3", 2, read_netpbm },
+	{ NULL, "P5", 2, read_netpbm },
+	{ NULL, "P6", 2, read_netpbm },
+	{ "tga", "", 0, read_tga },
 };
 
 double *pov_image_heights(struct arena *a, const void *bytes, size_t n, const char *type, int *width, int *height, const char **why)

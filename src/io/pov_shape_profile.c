@@ -186,7 +186,8 @@ static void mesh_prism(const struct pov_solid *s, const struct pov_drawing *d)
 }
 
 const struct pov_shape pov_shape_prism = {
-	.name = "prism", .seal = seal_prism, .bounds = sealed_box, .field = prism_field, .reach = prism_reach, .feature = sealed_feature, .mesh = mesh_prism,
+	.name = "prism", .seal = seal_prism, .bounds = sealed_box, .field = prism_field, .reach = prism_reach,
+	.feature = sealed_feature, .mesh = mesh_prism,
 };
 
 static int seal_text(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
@@ -235,7 +236,8 @@ static void mesh_text(const struct pov_solid *s, const struct pov_drawing *d)
 }
 
 const struct pov_shape pov_shape_text = {
-	.name = "text", .seal = seal_text, .bounds = sealed_box, .field = text_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_text,
+	.name = "text", .seal = seal_text, .bounds = sealed_box, .field = text_field, .slope = 1, .feature = sealed_feature,
+	.mesh = mesh_text,
 };
 
 /* About an axis. */
@@ -358,8 +360,10 @@ static void mesh_turned(const struct pov_solid *s, const struct pov_drawing *d)
 }
 
 const struct pov_shape pov_shape_lathe = {
-	.name = "lathe", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_turned,
+	.name = "lathe", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1,
+	.feature = sealed_feature, .mesh = mesh_turned,
 };
 const struct pov_shape pov_shape_sor = {
-	.name = "sor", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_turned,
+	.name = "sor", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1, .feature = sealed_feature,
+	.mesh = mesh_turned,
 };
