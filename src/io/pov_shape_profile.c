@@ -71,8 +71,10 @@ static double sealed_feature(const struct pov_solid *s)
 /* A wall's point: of a prism, at height h along y; of letters, along z. */
 static struct vec wall_point(const struct pov_solid *s, const double *p, double h)
 {
+	if (s->kind == POV_TEXT)
+		return vec(p[0], p[1], h);
 	double scale = s->shape.profile.conic ? h : 1;
-	return s->kind == POV_TEXT ? vec(p[0], p[1], h) : vec(p[0] * scale, h, p[1] * scale);
+	return vec(p[0] * scale, h, p[1] * scale);
 }
 
 struct cap {
