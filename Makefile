@@ -45,6 +45,9 @@ paper: all ## the experiments of "Cost prediction for ray shooting", with a repo
 bench: $(BUILD)/tests/bench ## time building and shooting, beside Embree where libembree-dev is installed
 	@./$(BUILD)/tests/bench
 
+check-pov: $(BUILD)/tests/check_pov ## hold POV-Ray's example scenes against POV-Ray (needs povray, povray-examples, povray-includes)
+	@sh tests/check_pov.sh ./$(BUILD)/tests/check_pov
+
 golden: export UPDATE_GOLDEN = 1
 golden: test ## rewrite tests/golden/, then read 'git diff'
 
@@ -63,6 +66,10 @@ $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(OBJ)
 EMBREE := $(if $(wildcard /usr/include/embree3/rtcore.h),yes)
 $(BUILD)/tests/bench: $(BUILD)/tests/bench.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS) $(if $(EMBREE),-lembree3)
+$(BUILD)/tests/check_pov: $(BUILD)/tests/check_pov.o $(OBJ)
+	$(CC) $(CF) -D_DEFAULT_SOURCE $^ -o $@ $(LIBS)
+$(BUILD)/tests/check_pov.o: CFLAGS += -D_DEFAULT_SOURCE
+
 $(BUILD)/tests/bench.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
 
 $(BUILD)/%.o: %.c
@@ -84,6 +91,6 @@ $(BUILD)/version: .FORCE
 
 -include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d
 
-.PHONY: all deps test layers sweep paper bench golden clean help .FORCE
+.PHONY: all deps test layers sweep paper bench check-pov golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:

@@ -201,8 +201,8 @@ static void cut_bent(const struct pov_cutter *c, struct pov_term *leaf, const st
 {
 	struct box seen = box_common(&leaf->extent, &c->region);
 	double size = box_longest(&seen), fine = fmax(fmin(leaf->feature, size) / FINE, size / FINEST);
-	double slope = pov_shape_of(leaf->shape)->slope;
-	struct bend b = { leaf, 1.5 * fine * 32 / c->n, 0, in, out, f->material, &leaf->cut };
+	double slope = pov_shape_of(leaf->shape)->slope, part = c->size > 0 ? fmin(1, fmax(c->least, sqrt(size / c->size))) : 1;
+	struct bend b = { leaf, 1.5 * fine * 32 / (c->n * part), 0, in, out, f->material, &leaf->cut };
 	struct corner corner[3];
 	if (slope > 0 && isfinite(slope))
 		b.flush = flush * slope * (box_longest(&leaf->extent) + vec_length(leaf->extent.lo)) * leaf->squeeze;

@@ -35,7 +35,7 @@ void pov_declare(struct pov *p, uint32_t name, const struct pov_value *value)
 void pov_declare_local(struct pov *p, uint32_t name, uint32_t frame, const struct pov_value *value)
 {
 	struct pov_binding *b = scope_find_in(&p->scope, name, frame);
-	if (p->failed)
+	if (p->failed || frame > (uint32_t)(p->source - p->sources))
 		return;
 	if (!b) {
 		b = scope_bind(&p->scope, name, frame, &p->sources[frame].bindings);
@@ -58,10 +58,10 @@ static void skip_deprecated(struct pov *p)
 
 static void declare(struct pov *p, bool local)
 {
-	/* A macro that gives the value may not be left yet when the value is complete. */
+	/* When the value is complete a macro that gives it may not be left yet, or the one at hand may be left already. */
 	uint32_t frame = (uint32_t)(p->source - p->sources);
 	const struct pov_token *t = pov_peek_operator(p);
-	struct pov_value *element = NULL;
+	struct pov_value *element = NULL; /* what is there to assign to */
 	uint32_t name;
 	if (is_word(t, WORD_deprecated))
 		skip_deprecated(p);
@@ -78,11 +78,13 @@ static void declare(struct pov *p, bool local)
 		pov_unexpected(p, t, "a name");
 		return;
 	}
-	bool relations = p->relations;
+	if (!element) {
+		struct pov_binding *b = local ? scope_find_in(&p->scope, name, frame) : scope_find(&p->scope, name);
+		element = b ? b->refers : NULL;
+	}
 	p->relations = false;
 	pov_expect(p, '=');
 	struct pov_value v = pov_value_read(p);
-	p->relations = relations;
 	if (p->failed)
 		return;
 	bool ended = pov_accept(p, ';');

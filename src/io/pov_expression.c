@@ -96,9 +96,11 @@ static bool read_constant(const struct pov *p, uint32_t word, struct pov_value *
 	case WORD_t: *v = (struct pov_value){ .type = TYPE_NUMBER, .count = 4, .a = { 0, 0, 0, 1 } }; return true;
 	case WORD_pi: x = 3.14159265358979323846; break;
 	case WORD_tau: x = 6.28318530717958647692; break;
-	case WORD_true: case WORD_on: case WORD_yes: case WORD_clock_delta: case WORD_frame_number: case WORD_initial_frame:
-	case WORD_final_frame: case WORD_final_clock: x = 1; break;
-	case WORD_false: case WORD_off: case WORD_no: case WORD_initial_clock: case WORD_clock_on: case WORD_now: x = 0; break;
+	case WORD_true: case WORD_on: case WORD_yes: x = 1; break;
+	case WORD_false: case WORD_off: case WORD_no: case WORD_now: x = 0; break;
+	/* One picture, not one of an animation. */
+	case WORD_clock_delta: case WORD_frame_number: case WORD_initial_frame: case WORD_final_frame: case WORD_initial_clock:
+	case WORD_final_clock: case WORD_clock_on: x = 0; break;
 	case WORD_clock: x = o->clock; break;
 	case WORD_image_width: x = o->width; break;
 	case WORD_image_height: x = o->height; break;
@@ -133,6 +135,12 @@ static struct pov_value read_identifier(struct pov *p, uint32_t name)
 {
 	const struct pov_binding *b = scope_find(&p->scope, name);
 	struct pov_value nothing = value_number(0);
+	if (!b && !p->options->strict && strcmp(p->names.text[name], "nan") == 0) {
+		/* Printed by programs for the angle of what has none. */
+		pov_note(p, "'nan' is taken as 0");
+		p->summary->ignored++;
+		return nothing;
+	}
 	if (!b) {
 		pov_refuse(p, "'%.60s' is not declared", p->names.text[name]);
 		return nothing;

@@ -299,7 +299,8 @@ static bool read_special(struct compiler *c, struct pov_program *f)
 		pov_expect(p, '(');
 		f->internal = (int)pov_integer(p, "the number of an internal function", 0, 1000);
 		pov_expect(p, ')');
-		f->unknown = !internal_known(f->internal);
+		f->parameters = internal_arguments(f->internal);
+		f->unknown = f->parameters == 0;
 	} else if (word == WORD_pattern || pov_is_look(word)) {
 		pov_take(p);
 		pov_skip_block(p);

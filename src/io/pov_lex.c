@@ -84,6 +84,7 @@ static bool is_digit(char c)
 static void skip_comment(struct lexer *l)
 {
 	int depth = 0;
+	uint32_t line = l->line;
 	do {
 		bool opens = l->end - l->at >= 2 && l->at[0] == '/' && l->at[1] == '*';
 		bool closes = l->end - l->at >= 2 && l->at[0] == '*' && l->at[1] == '/';
@@ -91,8 +92,10 @@ static void skip_comment(struct lexer *l)
 		l->line += *l->at == '\n';
 		l->at += opens || closes ? 2 : 1;
 	} while (depth > 0 && l->at < l->end);
-	if (depth > 0)
+	if (depth > 0) {
+		l->line = line;
 		add_bad(l, "a comment without end");
+	}
 }
 
 static bool skip_space(struct lexer *l)

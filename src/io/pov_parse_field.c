@@ -3,6 +3,7 @@
 #include "io/pov_program.h"
 #include "io/pov_reader.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static bool is_image_type(uint32_t word)
@@ -101,7 +102,9 @@ static void load_font(struct pov *p, struct pov_solid *s, const char *name)
 			s->shape.text.font_size = f->size;
 			return;
 		}
-	if (!pov_load(p, name, &bytes)) {
+	char longer[256];
+	snprintf(longer, sizeof longer, "%s.ttf", name);
+	if (!pov_load(p, name, &bytes) && !pov_load(p, longer, &bytes)) {
 		if (p->options->strict)
 			pov_refuse(p, "cannot find '%.200s'", name);
 		pov_note(p, "cannot find '%.100s'", name);
@@ -121,10 +124,12 @@ static void load_font(struct pov *p, struct pov_solid *s, const char *name)
 
 void pov_read_text(struct pov *p, struct pov_solid *s)
 {
+	static const char *const fonts[] = { "timrom.ttf", "cyrvetic.ttf", "crystal.ttf", "povlogo.ttf" };
 	struct pov_text *t = &s->shape.text;
 	const struct pov_string *font = NULL;
+	long inner = 0;
 	if (pov_accept_word(p, WORD_internal))
-		pov_float(p);
+		inner = pov_integer(p, "the number of an internal font", 0, 1e6);
 	else if (pov_accept_word(p, WORD_ttf) || pov_peek(p)->kind == TOKEN_STRING)
 		font = pov_file_name(p);
 	else
@@ -139,6 +144,8 @@ void pov_read_text(struct pov *p, struct pov_solid *s)
 		return;
 	if (font)
 		load_font(p, s, font->bytes);
+	else if (inner >= 1 && inner <= 4)
+		load_font(p, s, fonts[inner - 1]);
 	t->codes = make_codes(p, text, &t->count);
 	if (!t->font)
 		pov_make_unknown(s, "text");

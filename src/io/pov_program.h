@@ -45,8 +45,8 @@ struct pov_program {
 /* The value for arguments[parameters]; component: of functions that give vectors. */
 double program_value(const struct pov_program *f, const double *arguments, int component);
 
-/* POV-Ray's internal functions by number: whether it is known here, and its value for x, y, z and the further parameters. */
-bool internal_known(int number);
+/* POV-Ray's internal functions by number: how many arguments it takes, 0: it is not known here; and its value. */
+int internal_arguments(int number);
 double internal_value(int number, const double *arguments);
 
 #endif

@@ -152,7 +152,7 @@ void pov_stream_directive(struct pov *p, uint32_t word);
 struct pov_value *pov_variable(struct pov *p, uint32_t *name);
 /* As #declare: assign to the visible variable of this name, or make a global one. value is copied. */
 void pov_declare(struct pov *p, uint32_t name, const struct pov_value *value);
-/* As #local, in a frame: a source by its number. */
+/* As #local, in a frame: a source by its number; nothing if that is left already. */
 void pov_declare_local(struct pov *p, uint32_t name, uint32_t frame, const struct pov_value *value);
 
 /* pov_expression.c, pov_color.c, pov_call.c, pov_call_string.c, pov_call_object.c: values */

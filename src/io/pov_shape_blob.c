@@ -4,7 +4,7 @@
 #include "io/pov_place.h"
 #include "io/pov_tree.h"
 
-enum { CELLS_A_RADIUS = 5, CELLS_MOST = 4000 };
+enum { CELLS_A_RADIUS = 5, CELLS_LEAST = 2, CELLS_MOST = 4000, CELLS_MANY = 200000 };
 
 struct component {
 	struct pov_component given;
@@ -18,7 +18,7 @@ struct sealed {
 	uint32_t count;
 	struct pov_tree tree;
 	struct box box;
-	double finest; /* the least radius */
+	double finest, area; /* the least radius; of the boxes of all components */
 };
 
 static int seal_component(struct component *c, const struct pov_component *given)
@@ -52,6 +52,7 @@ static int seal_blob(struct arena *a, struct pov_solid *s, const char **why, str
 			continue;
 		boxes[q->count++] = c->box;
 		q->finest = fmin(q->finest, c->given.radius / c->shrink);
+		q->area += box_area(&c->box);
 		if (c->given.strength > 0)
 			box_join(&q->box, &c->box);
 	}
@@ -132,6 +133,8 @@ static void mesh_blob(const struct pov_solid *s, const struct pov_drawing *d)
 {
 	const struct sealed *q = s->sealed;
 	double step = q->finest / CELLS_A_RADIUS * 32 / d->n;
+	/* Where small components beside large ones would make too many cells these are larger. */
+	step = fmin(fmax(step, sqrt(q->area / CELLS_MANY)), q->finest / CELLS_LEAST);
 	pov_march(s, &q->box, fmax(step, box_longest(&q->box) / CELLS_MOST), d);
 }
 

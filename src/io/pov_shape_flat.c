@@ -101,6 +101,10 @@ static void mesh_plane(const struct pov_solid *s, const struct pov_drawing *d)
 	struct vec u, v, middle = vec_scale(vec_add(d->region.lo, d->region.hi), 0.5);
 	struct vec foot = vec_sub(middle, vec_scale(q->normal, plane_field(s, middle)));
 	double far = box_diagonal(&d->region);
+	/* The region may end in the plane itself: no rounding may put it beyond. */
+	for (int i = 0; i < 3; i++)
+		if (fabs(q->normal.a[i]) == 1)
+			foot.a[i] = q->normal.a[i] * q->distance;
 	pov_place_frame(q->normal, &u, &v);
 	u = vec_scale(u, far);
 	v = vec_scale(v, far);

@@ -219,7 +219,9 @@ const struct pov_token *pov_peek_operator(struct pov *p)
 
 static void step(struct pov *p, const struct pov_token *t)
 {
-	size_t budget = p->options->budget.tokens;
+	size_t budget = p->options->budget.tokens, bytes = p->options->budget.bytes;
+	if (p->mem.held > bytes)
+		pov_stop(p, STATUS_INPUT, "more memory than the budget of %zu bytes", bytes);
 	if (t == p->source->at && t != p->source->end)
 		p->source->at++;
 	if (++p->tokens_taken > budget && p->tokens_taken - p->tokens_cut > budget && p->tokens_taken > p->tokens_cut)

@@ -10,11 +10,11 @@ static const double look = 0.002; /* a sphere's facets may miss it by this part 
 
 static void collect(struct pov_surface *s, struct pov_term *t, const struct box *within, bool turned, struct pov_facets *out);
 
-/* n sqrt(size / scene), from 3/4 n to 4 n. */
+/* n sqrt(size / scene), from the least part of n to 4 n. */
 static int segments(const struct pov_surface *s, const struct pov_term *t)
 {
 	double n = box_is_finite(&t->extent) && s->size > 0 ? s->n * sqrt(box_diagonal(&t->extent) / s->size) : s->n;
-	n = fmin(fmax(n, 0.75 * s->n), FINER_MOST * s->n);
+	n = fmin(fmax(n, s->least * s->n), FINER_MOST * s->n);
 	return n < N_LEAST ? N_LEAST : (int)(n / 2) * 2;
 }
 
@@ -149,7 +149,7 @@ static void turn_facets(struct pov_facets *f)
 static void keep(const struct pov_surface *s, struct pov_facets *f, const struct box *here, struct pov_term *by,
                  const struct pov_term *except, bool flush)
 {
-	struct pov_cutter cutter = { .region = box_common(here, &s->close), .n = s->n, .flush = flush };
+	struct pov_cutter cutter = { .region = box_common(here, &s->close), .n = s->n, .size = s->size, .least = s->least, .flush = flush };
 	struct pov_facets kept = open_facets(f);
 	pov_cut(&cutter, f, by, except, &kept, NULL);
 	pov_facets_free(f);
