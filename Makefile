@@ -84,7 +84,7 @@ ifneq ($(filter freetype2,$(FOUND)),)
 $(BUILD)/src/io/pov_font.o: CFLAGS += -DHAVE_FREETYPE $(shell pkg-config --cflags freetype2)
 endif
 ifneq ($(filter libjpeg,$(FOUND)),)
-$(BUILD)/src/io/pov_image.o: CFLAGS += -DHAVE_JPEG $(shell pkg-config --cflags libjpeg)
+$(BUILD)/src/io/pov_picture.o: CFLAGS += -DHAVE_JPEG $(shell pkg-config --cflags libjpeg)
 endif
 
 # The version is looked up at every build, but main is compiled anew only when it changed.

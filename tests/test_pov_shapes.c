@@ -565,7 +565,8 @@ static void prism_loops(void **state)
 		                        { { { 0, 0, 0 } } }, { { { 1, 0, 0 } } } };
 	for (int cubic = 0; cubic < 2; cubic++) {
 		struct bench b = bench_open(32);
-		struct pov_solid *s = new_profile(&b, POV_PRISM, (struct pov_profile){ cubic ? POV_CUBIC : POV_QUADRATIC, false, 0, 1, p, 6 + (size_t)cubic });
+		struct pov_profile profile = { cubic ? POV_CUBIC : POV_QUADRATIC, false, 0, 1, p, 6 + (size_t)cubic };
+		struct pov_solid *s = new_profile(&b, POV_PRISM, profile);
 		mesh(&b, s);
 		assert_int_equal(open_edges(&b), 0);
 		assert_true(has_corner(&b, vec(0, 0, 0)) && has_corner(&b, vec(1, 1, 1)));
@@ -579,8 +580,10 @@ static void prism_loops(void **state)
 static void sweep_controls(void **state)
 {
 	(void)state;
-	static const struct pov_sphere p[] = { { { { { 0, 0, 0 } } }, 1 }, { { { { 4, 0, 0 } } }, 1 }, { { { { 8, 0, 0 } } }, 1 }, { { { { 12, 0, 0 } } }, 1 } };
-	static const struct { enum pov_spline kind; double low, high; } cases[] = { { POV_LINEAR, -1, 13 }, { POV_CUBIC, 3, 9 }, { POV_B_SPLINE, 3, 9 } };
+	static const struct pov_sphere p[] = { { { { { 0, 0, 0 } } }, 1 }, { { { { 4, 0, 0 } } }, 1 }, { { { { 8, 0, 0 } } }, 1 },
+		                               { { { { 12, 0, 0 } } }, 1 } };
+	static const struct { enum pov_spline kind; double low, high; } cases[] = { { POV_LINEAR, -1, 13 }, { POV_CUBIC, 3, 9 },
+		                                                                    { POV_B_SPLINE, 3, 9 } };
 	for (int i = 0; i < 3; i++) {
 		struct bench b = bench_open(32);
 		struct pov_solid *s = pov_solid_new(&b.mem, POV_SPHERE_SWEEP);
@@ -1297,9 +1300,86 @@ static void extents(void **state)
 	s->inverse = true;
 	assert_extent(s, low, high);
 	assert_extent(combine(&b, POV_DIFFERENCE, new_sphere(&b, 0, 0, 0, 1), new_box(&b, vec(-2, -2, -2), vec(2, 0, 2)), NULL), low, high);
-	assert_extent(combine(&b, POV_INTERSECTION, new_box(&b, vec(-1, -1, -1), vec(5, 5, 1)), new_plane(&b, 1, 0, 0, 1), new_plane(&b, 0, 1, 0, 1)), low, high);
+	s = combine(&b, POV_INTERSECTION, new_box(&b, vec(-1, -1, -1), vec(5, 5, 1)), new_plane(&b, 1, 0, 0, 1), new_plane(&b, 0, 1, 0, 1));
+	assert_extent(s, low, high);
 	assert_extent(make_ball_quadric(&b), low, high);
 	assert_extent(new_plane(&b, 0, 1, 0, 1), vec(-1e10, -1e10, -1e10), vec(1e10, 1, 1e10));
+	bench_close(&b);
+}
+
+/* A TrueType font of two glyphs: none, and for 'o' a square ring from 100 to 600 of 1000 with a hole from 200 to 500; advance 800. */
+struct font {
+	unsigned char bytes[600];
+	size_t n;
+};
+
+static void put16(struct font *f, int count, const int *values)
+{
+	for (int i = 0; i < count; i++) {
+		f->bytes[f->n++] = (unsigned char)(values[i] >> 8 & 255);
+		f->bytes[f->n++] = (unsigned char)(values[i] & 255);
+	}
+}
+
+static struct font make_font(void)
+{
+	static const int cmap[] = { 0, 1, 3, 1, 0, 12, 4, 32, 0, 4, 4, 1, 0, 'o', 0xffff, 0, 'o', 0xffff, 1 - 'o', 1, 0, 0 };
+	static const int head[] = { 1, 0, 1, 0, 0, 0, 0x5f0f, 0x3cf5, 0, 1000, 0, 0, 0, 0, 0, 0, 0, 0, 100, 0, 600, 500, 0, 8, 2, 0, 0 };
+	static const int hhea[] = { 1, 0, 800, 0, 0, 800, 100, 200, 600, 1, 0, 0, 0, 0, 0, 0, 0, 2 };
+	static const int hmtx[] = { 800, 0, 800, 100 }, loca[] = { 0, 0, 29 };
+	static const int maxp[] = { 1, 0, 2, 8, 2, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0 };
+	/* Contours, box, ends, instructions, flags; then the points, each from the last: x, y. */
+	static const int glyf[] = { 2, 100, 0, 600, 500, 3, 7, 0, 0x0101, 0x0101, 0x0101, 0x0101, 100, 500, 0, -500, 100, 0, 300, 0,
+		                    0, 0, 500, 0, -400, 300, 0, -300, 0 };
+	static const struct { const char *tag; const int *data; int words; } tables[] = {
+		{ "cmap", cmap, 22 }, { "glyf", glyf, 29 }, { "head", head, 27 }, { "hhea", hhea, 18 },
+		{ "hmtx", hmtx, 4 },  { "loca", loca, 3 },  { "maxp", maxp, 16 },
+	};
+	struct font f = { .n = 0 };
+	int offset = 12 + 7 * 16;
+	put16(&f, 6, (int[]){ 1, 0, 7, 64, 2, 48 });
+	for (int i = 0; i < 7; i++) {
+		memcpy(f.bytes + f.n, tables[i].tag, 4);
+		f.n += 4;
+		put16(&f, 6, (int[]){ 0, 0, 0, offset, 0, 2 * tables[i].words });
+		offset += (2 * tables[i].words + 3) / 4 * 4;
+	}
+	for (int i = 0; i < 7; i++) {
+		put16(&f, tables[i].words, tables[i].data);
+		f.n = (f.n + 3) / 4 * 4;
+	}
+	return f;
+}
+
+/* Letters stand where their advances put them, the first at the edge of its ink; holes are holes. Without FreeType, or a font, text is
+ * skipped and counted. */
+static void letters(void **state)
+{
+	(void)state;
+	struct bench b = bench_open(32);
+	struct font f = make_font();
+	static const uint32_t codes[] = { 'o', 'o' };
+	struct pov_solid *s = pov_solid_new(&b.mem, POV_TEXT), *bad = pov_solid_new(&b.mem, POV_TEXT);
+	s->shape.text = (struct pov_text){ f.bytes, f.n, codes, 2, 2, vec(0.25, 0, 0) };
+	bad->shape.text = (struct pov_text){ f.bytes, 40, codes, 2, 2, vec(0, 0, 0) };
+	mesh(&b, seal(&b, bad));
+	assert_int_equal(b.tally.skipped, 1);
+	bool without = strcmp(b.tally.reasons[0].reason, "text, without FreeType") == 0;
+	assert_true(without || strcmp(b.tally.reasons[0].reason, "text whose font cannot be read") == 0);
+	mesh(&b, seal(&b, s));
+	assert_int_equal(b.tally.skipped, without);
+	if (!without) {
+		struct box all = bounds(&b);
+		assert_near(all.lo.x, 0, 1e-12);
+		assert_near(all.hi.x, 0.8 + 0.25 + 0.5, 1e-12);
+		assert_near(all.lo.z, 0, 0);
+		assert_near(all.hi.z, 2, 0);
+		assert_near(volume(&b), 2 * 2 * (0.25 - 0.09), 1e-12);
+		assert_int_equal(open_edges(&b), 0);
+		assert_true(pov_solid_inside(s, vec(0.05, 0.25, 1)));
+		assert_false(pov_solid_inside(s, vec(0.25, 0.25, 1)));
+		agree(&b, s, 1e-9, 9);
+	}
 	bench_close(&b);
 }
 
@@ -1334,7 +1414,7 @@ int main(void)
 		cmocka_unit_test(merges), cmocka_unit_test(many_holes), cmocka_unit_test(unknown_shapes),
 		cmocka_unit_test(native_spheres), cmocka_unit_test(domes), cmocka_unit_test(planets),
 		cmocka_unit_test(budgets), cmocka_unit_test(traces), cmocka_unit_test(extents),
-		cmocka_unit_test(quadric_bounds),
+		cmocka_unit_test(quadric_bounds), cmocka_unit_test(letters),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

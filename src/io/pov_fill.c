@@ -69,7 +69,7 @@ static double loop_area(const struct pov_outline *o, size_t l)
 
 static bool loop_holds(const struct pov_outline *o, size_t l, const double *p)
 {
-	struct pov_outline one = { .at = o->at, .first = o->first + l, .reach = o->reach + l, .loops = 1 };
+	struct pov_outline one = { .at = o->at, .first = o->first + l, .loops = 1 };
 	return pov_outline_inside(&one, p[0], p[1]);
 }
 

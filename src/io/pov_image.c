@@ -1,49 +1,12 @@
-/* Height fields from images. PNG by libpng and JPEG by libjpeg; GIF, TGA, BMP and the Netpbm formats are read here, first image only. */
+/* Height fields from images. GIF, TGA, BMP and the Netpbm formats are read here, of several images the first. */
 #include "io/pov_image.h"
 
-#include <png.h>
-#include <setjmp.h>
-#include <stdbool.h>
-#include <stdint.h>
+#include "io/pov_picture.h"
+
 #include <stdlib.h>
 #include <string.h>
-#ifdef HAVE_JPEG
-#include <stdio.h>
 
-#include <jpeglib.h>
-#endif
-
-enum { PIXELS_MOST = 1 << 26, CODES = 4096 };
-
-/* The heights as they are filled, and the bytes as they are read. 'spent': read past the end. */
-struct picture {
-	struct arena *mem;
-	double *heights;
-	int width, height;
-	const unsigned char *at, *end;
-	bool spent;
-};
-
-static bool open_picture(struct picture *p, uint64_t width, uint64_t height)
-{
-	if (width < 2 || height < 2 || width > PIXELS_MOST / height)
-		return false;
-	p->width = (int)width;
-	p->height = (int)height;
-	p->heights = NEW(p->mem, double, (size_t)(width * height));
-	return p->heights;
-}
-
-/* Row 0 is the image's top, z = 1. */
-static void put(struct picture *p, int x, int row, double height)
-{
-	p->heights[(size_t)(p->height - 1 - row) * (size_t)p->width + (size_t)x] = height;
-}
-
-static double height_of_color(unsigned red, unsigned green)
-{
-	return (256 * red + green) / 65535.0;
-}
+enum { CODES = 4096 };
 
 static unsigned byte(struct picture *p)
 {
@@ -65,137 +28,6 @@ static void skip(struct picture *p, size_t n)
 		p->spent = true;
 	p->at = p->spent ? p->end : p->at + n;
 }
-
-/* PNG. */
-
-static void png_bytes(png_structp png, png_bytep to, size_t n)
-{
-	struct picture *p = png_get_io_ptr(png);
-	if ((size_t)(p->end - p->at) < n)
-		png_error(png, "truncated");
-	memcpy(to, p->at, n);
-	p->at += n;
-}
-
-static void png_quiet(png_structp png, png_const_charp text)
-{
-	(void)png;
-	(void)text;
-}
-
-static void png_leave(png_structp png, png_const_charp text)
-{
-	(void)text;
-	png_longjmp(png, 1);
-}
-
-static void png_row(struct picture *p, int row, const unsigned char *b, int color, int depth)
-{
-	for (int x = 0; x < p->width; x++) {
-		if (color == PNG_COLOR_TYPE_PALETTE)
-			put(p, x, row, b[x] / 255.0);
-		else if (color == PNG_COLOR_TYPE_GRAY)
-			put(p, x, row, depth == 16 ? (b[2 * x] * 256 + b[2 * x + 1]) / 65535.0 : b[x] / 255.0);
-		else
-			put(p, x, row, depth == 16 ? height_of_color(b[6 * x], b[6 * x + 2]) : height_of_color(b[3 * x], b[3 * x + 1]));
-	}
-}
-
-static bool read_png_rows(struct picture *p, png_structp png, png_infop info, unsigned char **rows)
-{
-	if (setjmp(png_jmpbuf(png)))
-		return false;
-	png_set_read_fn(png, p, png_bytes);
-	png_read_info(png, info);
-	png_set_strip_alpha(png);
-	png_set_packing(png);
-	if (png_get_color_type(png, info) == PNG_COLOR_TYPE_GRAY && png_get_bit_depth(png, info) < 8)
-		png_set_expand_gray_1_2_4_to_8(png);
-	png_set_interlace_handling(png);
-	png_read_update_info(png, info);
-	size_t bytes = png_get_rowbytes(png, info);
-	if (!open_picture(p, png_get_image_width(png, info), png_get_image_height(png, info)))
-		return false;
-	*rows = malloc((size_t)p->height * (bytes + sizeof(png_bytep)));
-	if (!*rows)
-		return false;
-	png_bytep *row = (png_bytep *)(void *)*rows;
-	for (int y = 0; y < p->height; y++)
-		row[y] = *rows + (size_t)p->height * sizeof *row + (size_t)y * bytes;
-	png_read_image(png, row);
-	for (int y = 0; y < p->height; y++)
-		png_row(p, y, row[y], png_get_color_type(png, info), png_get_bit_depth(png, info));
-	return true;
-}
-
-static bool read_png(struct picture *p)
-{
-	unsigned char *rows = NULL;
-	png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, png_leave, png_quiet);
-	png_infop info = png ? png_create_info_struct(png) : NULL;
-	bool done = info && read_png_rows(p, png, info, &rows);
-	if (png)
-		png_destroy_read_struct(&png, info ? &info : NULL, NULL);
-	free(rows);
-	return done;
-}
-
-/* JPEG. */
-
-#ifdef HAVE_JPEG
-
-struct jpeg_fault {
-	struct jpeg_error_mgr manager;
-	jmp_buf out;
-};
-
-static void jpeg_leave(j_common_ptr j)
-{
-	longjmp(((struct jpeg_fault *)(void *)j->err)->out, 1);
-}
-
-static void jpeg_quiet(j_common_ptr j, int level)
-{
-	(void)j;
-	(void)level;
-}
-
-static bool read_jpeg(struct picture *p)
-{
-	struct jpeg_decompress_struct j = { 0 };
-	struct jpeg_fault fault;
-	j.err = jpeg_std_error(&fault.manager);
-	fault.manager.error_exit = jpeg_leave;
-	fault.manager.emit_message = jpeg_quiet;
-	if (setjmp(fault.out)) {
-		jpeg_destroy_decompress(&j);
-		return false;
-	}
-	jpeg_create_decompress(&j);
-	jpeg_mem_src(&j, p->at, (unsigned long)(p->end - p->at));
-	jpeg_read_header(&j, TRUE);
-	j.out_color_space = j.num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
-	jpeg_start_decompress(&j);
-	bool gray = j.output_components == 1, done = open_picture(p, j.output_width, j.output_height);
-	JSAMPARRAY row = done ? j.mem->alloc_sarray((j_common_ptr)&j, JPOOL_IMAGE, j.output_width * (unsigned)j.output_components, 1) : NULL;
-	for (int y = 0; done && y < p->height; y++) {
-		jpeg_read_scanlines(&j, row, 1);
-		for (int x = 0; x < p->width; x++)
-			put(p, x, y, gray ? row[0][x] / 255.0 : height_of_color(row[0][3 * x], row[0][3 * x + 1]));
-	}
-	jpeg_destroy_decompress(&j);
-	return done;
-}
-
-#else
-
-static bool read_jpeg(struct picture *p)
-{
-	(void)p;
-	return false;
-}
-
-#endif
 
 /* Netpbm: P2 P3 in digits, P5 P6 in bytes. */
 
@@ -219,7 +51,7 @@ static bool read_netpbm(struct picture *p)
 	skip(p, 2);
 	unsigned width = netpbm_number(p), height = netpbm_number(p), most = netpbm_number(p);
 	bool color = kind == '3' || kind == '6', digits = kind < '4';
-	if (most < 1 || most > 65535 || !open_picture(p, width, height))
+	if (most < 1 || most > 65535 || !picture_open(p, width, height))
 		return false;
 	for (int y = 0; y < p->height; y++)
 		for (int x = 0; x < p->width; x++) {
@@ -231,7 +63,7 @@ static bool read_netpbm(struct picture *p)
 				if (!digits && most > 255)
 					v[k] = v[k] << 8 | byte(p);
 			}
-			put(p, x, y, color ? height_of_color(v[0] * 255 / most, v[1] * 255 / most) : (double)v[0] / most);
+			picture_put(p, x, y, color ? picture_height_of_color(v[0] * 255 / most, v[1] * 255 / most) : (double)v[0] / most);
 		}
 	return !p->spent;
 }
@@ -330,7 +162,7 @@ static bool read_gif(struct picture *p)
 	flags = byte(p);
 	if (flags & 0x80)
 		skip(p, (size_t)3 << ((flags & 7) + 1));
-	if (p->spent || !open_picture(p, width, height))
+	if (p->spent || !picture_open(p, width, height))
 		return false;
 	size_t count = (size_t)width * height;
 	unsigned char *pixels = malloc(count);
@@ -339,7 +171,7 @@ static bool read_gif(struct picture *p)
 	int pass = 0, row = 0;
 	for (int y = 0; done && y < p->height; y++) {
 		for (int x = 0; x < p->width; x++)
-			put(p, x, flags & 0x40 ? row : y, pixels[(size_t)y * width + (size_t)x] / 255.0);
+			picture_put(p, x, flags & 0x40 ? row : y, pixels[(size_t)y * width + (size_t)x] / 255.0);
 		for (row += step[pass]; pass < 3 && row >= p->height;)
 			row = from[++pass];
 	}
@@ -353,7 +185,7 @@ static bool read_pot(struct picture *p)
 	if (!read_gif(p))
 		return false;
 	struct picture wide = *p;
-	if (!open_picture(p, (uint64_t)wide.width / 2, (uint64_t)wide.height))
+	if (!picture_open(p, (uint64_t)wide.width / 2, (uint64_t)wide.height))
 		return false;
 	for (int y = 0; y < p->height; y++)
 		for (int x = 0; x < p->width; x++) {
@@ -375,8 +207,8 @@ static double tga_pixel(struct picture *p, int kind, int bits)
 	if (bits == 16 && kind == 3)
 		return (b[0] | b[1] << 8) / 65535.0;
 	if (bits <= 16)
-		return height_of_color((b[1] >> 2 & 31) * 255 / 31, ((b[1] & 3) << 3 | b[0] >> 5) * 255 / 31);
-	return height_of_color(b[2], b[1]);
+		return picture_height_of_color((b[1] >> 2 & 31) * 255 / 31, ((b[1] & 3) << 3 | b[0] >> 5) * 255 / 31);
+	return picture_height_of_color(b[2], b[1]);
 }
 
 static bool read_tga(struct picture *p)
@@ -390,7 +222,7 @@ static bool read_tga(struct picture *p)
 	unsigned width = word(p), height = word(p), bits = byte(p), order = byte(p);
 	int kind = type & 7;
 	skip(p, name + (map ? (size_t)entries * ((entry + 7) / 8) : 0));
-	if (kind < 1 || kind > 3 || type > 11 || bits < 8 || bits > 32 || p->spent || !open_picture(p, width, height))
+	if (kind < 1 || kind > 3 || type > 11 || bits < 8 || bits > 32 || p->spent || !picture_open(p, width, height))
 		return false;
 	unsigned left = 0;
 	bool run = false;
@@ -409,7 +241,7 @@ static bool read_tga(struct picture *p)
 				left--;
 			}
 			value = fresh ? tga_pixel(p, kind, (int)bits) : value;
-			put(p, x, order & 32 ? y : p->height - 1 - y, value);
+			picture_put(p, x, order & 32 ? y : p->height - 1 - y, value);
 			if (p->spent)
 				return false;
 		}
@@ -433,7 +265,7 @@ static bool read_bmp(struct picture *p)
 	unsigned bits = word(p), packed = word(p);
 	bool down = side[1] < 0;
 	if (p->spent || packed || (bits != 8 && bits != 24 && bits != 32) || side[0] < 0 || side[1] == INT32_MIN ||
-	    first > (size_t)(p->end - start) || !open_picture(p, (uint64_t)side[0], (uint64_t)(down ? -side[1] : side[1])))
+	    first > (size_t)(p->end - start) || !picture_open(p, (uint64_t)side[0], (uint64_t)(down ? -side[1] : side[1])))
 		return false;
 	p->at = start + first;
 	for (int y = 0; y < p->height; y++) {
@@ -441,7 +273,7 @@ static bool read_bmp(struct picture *p)
 			unsigned blue = byte(p), green = bits > 8 ? byte(p) : 0, red = bits > 8 ? byte(p) : 0;
 			if (bits == 32)
 				byte(p);
-			put(p, x, down ? y : p->height - 1 - y, bits == 8 ? blue / 255.0 : height_of_color(red, green));
+			picture_put(p, x, down ? y : p->height - 1 - y, bits == 8 ? blue / 255.0 : picture_height_of_color(red, green));
 		}
 		if (p->spent)
 			return false;
@@ -461,9 +293,16 @@ static const struct format {
 	size_t size;
 	bool (*read)(struct picture *p);
 } formats[] = {
-	{ NULL, "\x89PNG", 4, read_png }, { NULL, "\xff\xd8\xff", 3, read_jpeg }, { "pot", "GIF8", 4, read_pot }, { NULL, "GIF8", 4, read_gif },
-	{ NULL, "BM", 2, read_bmp },      { NULL, "P2", 2, read_netpbm },         { NULL, "P3", 2, read_netpbm }, { NULL, "P5", 2, read_netpbm },
-	{ NULL, "P6", 2, read_netpbm },   { "tga", "", 0, read_tga },
+	{ NULL, "\x89PNG", 4, picture_read_png },
+	{ NULL, "\xff\xd8\xff", 3, picture_read_jpeg },
+	{ "pot", "GIF8", 4, read_pot },
+	{ NULL, "GIF8", 4, read_gif },
+	{ NULL, "BM", 2, read_bmp },
+	{ NULL, "P2", 2, read_netpbm },
+	{ NULL, "P3", 2, read_netpbm },
+	{ NULL, "P5", 2, read_netpbm },
+	{ NULL, "P6", 2, read_netpbm },
+	{ "tga", "", 0, read_tga },
 };
 
 double *pov_image_heights(struct arena *a, const void *bytes, size_t n, const char *type, int *width, int *height, const char **why)

@@ -137,7 +137,8 @@ static bool add_sphere(struct mesher *m, const struct pov_term *t)
 	pov_place_stretch(&t->place, &least, &most);
 	if (most - least > 1e-6 * most)
 		return false;
-	scene_add_sphere(m->scene, matrix_point(t->shape->shape.sphere.center, &t->place), t->shape->shape.sphere.radius * cbrt(fabs(pov_place_determinant(&t->place))));
+	const struct pov_sphere *s = &t->shape->shape.sphere;
+	scene_add_sphere(m->scene, matrix_point(s->center, &t->place), s->radius * cbrt(fabs(pov_place_determinant(&t->place))));
 	set_material(m->scene, t->material);
 	m->tally->spheres++;
 	return true;

@@ -25,69 +25,111 @@ void pov_outline_close(struct pov_outline *o)
 	if (o->loops + 2 > o->loop_room) {
 		size_t room = o->loop_room ? 2 * o->loop_room : 8;
 		size_t *grown = arena_grow(o->mem, o->first, o->first ? o->loops + 1 : 0, room, sizeof *grown);
-		double (*reach)[4] = arena_grow(o->mem, o->reach, o->loops, room, sizeof *reach);
-		o->lost = o->lost || !grown || !reach;
+		o->lost = o->lost || !grown;
 		if (o->lost)
 			return;
 		o->first = grown;
-		o->reach = reach;
 		o->loop_room = room;
 	}
 	size_t start = o->first[o->loops];
 	if (o->count > start + 1 && o->at[o->count - 1][0] == o->at[start][0] && o->at[o->count - 1][1] == o->at[start][1])
 		o->count--;
-	if (o->count < start + 3) {
+	if (o->count < start + 3)
 		o->count = start;
-		return;
-	}
-	double *r = o->reach[o->loops];
-	r[0] = r[1] = INFINITY;
-	r[2] = r[3] = -INFINITY;
-	for (size_t i = start; i < o->count; i++)
-		for (int axis = 0; axis < 2; axis++) {
-			r[axis] = fmin(r[axis], o->at[i][axis]);
-			r[2 + axis] = fmax(r[2 + axis], o->at[i][axis]);
-		}
-	o->first[++o->loops] = o->count;
+	else
+		o->first[++o->loops] = o->count;
 }
 
-/* Square of the distance from what a loop reaches. */
-static double away(const double *r, double x, double y)
+void pov_outline_index(struct pov_outline *o)
 {
-	double u = fmax(0, fmax(r[0] - x, x - r[2])), v = fmax(0, fmax(r[1] - y, y - r[3]));
-	return u * u + v * v;
+	struct arena scratch = { 0 };
+	struct box *boxes = NEW(&scratch, struct box, o->count);
+	size_t *after = NEW(o->mem, size_t, o->count);
+	for (size_t l = 0; boxes && after && l < o->loops; l++)
+		for (size_t i = o->first[l]; i < o->first[l + 1]; i++) {
+			after[i] = pov_outline_next(o, l, i);
+			boxes[i] = box_empty();
+			box_extend(&boxes[i], vec(o->at[i][0], o->at[i][1], 0));
+			box_extend(&boxes[i], vec(o->at[after[i]][0], o->at[after[i]][1], 0));
+		}
+	if (!boxes || !after || pov_tree_build(&o->tree, o->mem, boxes, (uint32_t)o->count) != 0)
+		o->lost = true;
+	o->after = after;
+	arena_free(&scratch);
+}
+
+/* A question about a point: whether a ray toward +x passes an odd number of edges; the square of the distance to the nearest. */
+struct query {
+	const struct pov_outline *o;
+	double x, y, nearest;
+	bool inside;
+};
+
+static void pass_edge(struct query *q, const double *a, const double *b)
+{
+	if ((a[1] > q->y) != (b[1] > q->y) && q->x < a[0] + (q->y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+		q->inside = !q->inside;
+}
+
+static void measure_edge(struct query *q, const double *a, const double *b)
+{
+	double u = b[0] - a[0], v = b[1] - a[1], s = ((q->x - a[0]) * u + (q->y - a[1]) * v) / (u * u + v * v);
+	s = s < 0 ? 0 : s > 1 ? 1 : s;
+	double dx = q->x - a[0] - s * u, dy = q->y - a[1] - s * v, square = dx * dx + dy * dy;
+	q->nearest = square < q->nearest ? square : q->nearest;
+}
+
+static bool may_pass(void *context, const struct box *b)
+{
+	const struct query *q = context;
+	return b->lo.y <= q->y && b->hi.y > q->y && b->hi.x > q->x;
+}
+
+static bool may_be_nearer(void *context, const struct box *b)
+{
+	const struct query *q = context;
+	double dx = q->x < b->lo.x ? b->lo.x - q->x : q->x > b->hi.x ? q->x - b->hi.x : 0;
+	double dy = q->y < b->lo.y ? b->lo.y - q->y : q->y > b->hi.y ? q->y - b->hi.y : 0;
+	return dx * dx + dy * dy < q->nearest;
+}
+
+static void pass_leaf(void *context, uint32_t i)
+{
+	struct query *q = context;
+	pass_edge(q, q->o->at[i], q->o->at[q->o->after[i]]);
+}
+
+static void measure_leaf(void *context, uint32_t i)
+{
+	struct query *q = context;
+	measure_edge(q, q->o->at[i], q->o->at[q->o->after[i]]);
+}
+
+static void for_edges(struct query *q, void (*each)(struct query *q, const double *a, const double *b))
+{
+	for (size_t l = 0; l < q->o->loops; l++)
+		for (size_t i = q->o->first[l]; i < q->o->first[l + 1]; i++)
+			each(q, q->o->at[i], q->o->at[pov_outline_next(q->o, l, i)]);
 }
 
 bool pov_outline_inside(const struct pov_outline *o, double x, double y)
 {
-	bool inside = false;
-	for (size_t l = 0; l < o->loops; l++) {
-		if (away(o->reach[l], x, y) > 0)
-			continue;
-		for (size_t i = o->first[l]; i < o->first[l + 1]; i++) {
-			const double *a = o->at[i], *b = o->at[pov_outline_next(o, l, i)];
-			if ((a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
-				inside = !inside;
-		}
-	}
-	return inside;
+	struct query q = { .o = o, .x = x, .y = y };
+	if (o->tree.nodes)
+		pov_tree_visit(&o->tree, may_pass, pass_leaf, &q);
+	else
+		for_edges(&q, pass_edge);
+	return q.inside;
 }
 
 double pov_outline_distance(const struct pov_outline *o, double x, double y)
 {
-	double least = INFINITY;
-	for (size_t l = 0; l < o->loops; l++) {
-		if (away(o->reach[l], x, y) >= least)
-			continue;
-		for (size_t i = o->first[l]; i < o->first[l + 1]; i++) {
-			const double *a = o->at[i], *b = o->at[pov_outline_next(o, l, i)];
-			double u = b[0] - a[0], v = b[1] - a[1], s = ((x - a[0]) * u + (y - a[1]) * v) / (u * u + v * v);
-			s = fmin(1, fmax(0, s));
-			double dx = x - a[0] - s * u, dy = y - a[1] - s * v;
-			least = fmin(least, dx * dx + dy * dy);
-		}
-	}
-	return pov_outline_inside(o, x, y) ? -sqrt(least) : sqrt(least);
+	struct query q = { .o = o, .x = x, .y = y, .nearest = INFINITY };
+	if (o->tree.nodes)
+		pov_tree_visit(&o->tree, may_be_nearer, measure_leaf, &q);
+	else
+		for_edges(&q, measure_edge);
+	return pov_outline_inside(o, x, y) ? -sqrt(q.nearest) : sqrt(q.nearest);
 }
 
 bool pov_outline_inside_left(const struct pov_outline *o, size_t i, size_t next)

@@ -4,17 +4,22 @@
 
 #include "base/arena.h"
 #include "io/pov_solid.h"
+#include "io/pov_tree.h"
 
-/* Loop l has the points at[first[l] .. first[l + 1]), its last one joined to its first, and reaches from reach[l][0], reach[l][1] to
- * reach[l][2], reach[l][3]. Arrays of an arena; zero-initialise to
+/* Loop l has the points at[first[l] .. first[l + 1]), its last one joined to its first. Arrays of an arena; zero-initialise to
  * open. lost: memory ran out, nothing more is added. */
 struct pov_outline {
 	struct arena *mem;
-	double (*at)[2], (*reach)[4];
+	double (*at)[2];
 	size_t *first; /* loops + 1 */
 	size_t loops, count, room, loop_room;
+	struct pov_tree tree; /* over the edges, by pov_outline_index; before that edges are tried one by one */
+	size_t *after;        /* the end of the edge that starts at a point; by pov_outline_index */
 	bool lost;
 };
+
+/* The outline is complete and will be asked often. Sets 'lost' when memory is out. */
+void pov_outline_index(struct pov_outline *o);
 
 /* One more point of the loop at hand, unless it is where the last one is. */
 void pov_outline_add(struct pov_outline *o, double x, double y);

@@ -7,7 +7,8 @@
 
 /* Where the triangles of a shape go: through 'place' into 'out', with 'material'; 'turn' where place mirrors or the inside is out.
  * n: segments of a full circle. region: finite box, in the shape's space, beyond which no surface is wanted (it may go beyond).
- * plain: materials of single triangles do not count. even: long and narrow facets are to be avoided, for these will be cut. scratch: for working space. */
+ * plain: materials of single triangles do not count. even: long and narrow facets are to be avoided, for these will be cut. scratch:
+ * for working space. */
 struct pov_drawing {
 	struct pov_facets *out;
 	const struct matrix *place;

@@ -139,5 +139,6 @@ static void mesh_blob(const struct pov_solid *s, const struct pov_drawing *d)
 }
 
 const struct pov_shape pov_shape_blob = {
-	.name = "blob", .seal = seal_blob, .bounds = blob_bounds, .field = blob_field, .reach = blob_reach, .feature = blob_feature, .mesh = mesh_blob,
+	.name = "blob", .seal = seal_blob, .bounds = blob_bounds, .field = blob_field, .reach = blob_reach,
+	.feature = blob_feature, .mesh = mesh_blob,
 };

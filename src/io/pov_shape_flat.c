@@ -167,7 +167,8 @@ static void mesh_disc(const struct pov_solid *s, const struct pov_drawing *d)
 }
 
 const struct pov_shape pov_shape_disc = {
-	.name = "disc", .seal = seal_disc, .bounds = disc_bounds, .field = disc_field, .slope = 1, .mesh = mesh_disc, .filled = disc_filled,
+	.name = "disc", .seal = seal_disc, .bounds = disc_bounds, .field = disc_field, .slope = 1, .mesh = mesh_disc,
+	.filled = disc_filled,
 };
 
 /* A polygon's plane as a frame, and its loops there. */

@@ -106,7 +106,8 @@ static void mesh_height_field(const struct pov_solid *s, const struct pov_drawin
 }
 
 const struct pov_shape pov_shape_height_field = {
-	.name = "height_field", .seal = seal_height_field, .bounds = height_field_bounds, .field = height_field_field, .reach = height_field_reach, .feature = height_field_feature, .mesh = mesh_height_field, .filled = height_field_filled,
+	.name = "height_field", .seal = seal_height_field, .bounds = height_field_bounds, .field = height_field_field,
+	.reach = height_field_reach, .feature = height_field_feature, .mesh = mesh_height_field, .filled = height_field_filled,
 };
 
 double *pov_heights_sample(struct arena *a, struct pov_function f, int width, int height)
@@ -169,7 +170,8 @@ static void mesh_isosurface(const struct pov_solid *s, const struct pov_drawing 
 }
 
 const struct pov_shape pov_shape_isosurface = {
-	.name = "isosurface", .seal = seal_isosurface, .bounds = isosurface_bounds, .field = isosurface_field, .slope = INFINITY, .mesh = mesh_isosurface,
+	.name = "isosurface", .seal = seal_isosurface, .bounds = isosurface_bounds, .field = isosurface_field,
+	.slope = INFINITY, .mesh = mesh_isosurface,
 };
 
 /* A parametric surface: a grid over u, v. */

@@ -129,6 +129,7 @@ static int seal_prism(struct arena *a, struct pov_solid *s, const char **why, st
 	if (!q)
 		return err_memory(e, "prism");
 	pov_outline_spline(q->outlines, p->spline, p->points, p->count, FIELD_PIECES, true);
+	pov_outline_index(q->outlines);
 	if (q->outlines->lost)
 		return err_memory(e, "prism");
 	if (p->low > p->high) {
@@ -187,7 +188,8 @@ static void mesh_prism(const struct pov_solid *s, const struct pov_drawing *d)
 }
 
 const struct pov_shape pov_shape_prism = {
-	.name = "prism", .seal = seal_prism, .bounds = sealed_box, .field = prism_field, .reach = prism_reach, .feature = sealed_feature, .mesh = mesh_prism,
+	.name = "prism", .seal = seal_prism, .bounds = sealed_box, .field = prism_field, .reach = prism_reach,
+	.feature = sealed_feature, .mesh = mesh_prism,
 };
 
 static int seal_text(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
@@ -200,9 +202,11 @@ static int seal_text(struct arena *a, struct pov_solid *s, const char **why, str
 	int status = pov_font_outlines(t, q->outlines, why);
 	if (status != 0)
 		return status;
-	for (size_t i = 0; i < q->count; i++)
+	for (size_t i = 0; i < q->count; i++) {
+		pov_outline_index(&q->outlines[i]);
 		if (q->outlines[i].lost)
 			return err_memory(e, "text");
+	}
 	measure(q, &plane);
 	q->box = (struct box){ vec(plane.lo.x, plane.lo.y, fmin(0, t->thickness)), vec(plane.hi.x, plane.hi.y, fmax(0, t->thickness)) };
 	s->sealed = q;
@@ -210,12 +214,18 @@ static int seal_text(struct arena *a, struct pov_solid *s, const char **why, str
 	return box_is_empty(&plane) ? 1 : 0;
 }
 
+/* In the plane; 0 inside. */
+static double box_distance(const struct box *b, struct vec p)
+{
+	return hypot(fmax(0, fmax(b->lo.x - p.x, p.x - b->hi.x)), fmax(0, fmax(b->lo.y - p.y, p.y - b->hi.y)));
+}
+
 static double text_field(const struct pov_solid *s, struct vec p)
 {
 	const struct sealed *q = s->sealed;
 	double f = INFINITY;
 	for (size_t i = 0; i < q->count; i++)
-		if (q->outlines[i].loops)
+		if (q->outlines[i].loops && box_distance(&q->outlines[i].tree.nodes->box, p) < f)
 			f = fmin(f, pov_outline_distance(&q->outlines[i], p.x, p.y));
 	return fmax(f, fmax(q->box.lo.z - p.z, p.z - q->box.hi.z));
 }
@@ -228,7 +238,8 @@ static void mesh_text(const struct pov_solid *s, const struct pov_drawing *d)
 }
 
 const struct pov_shape pov_shape_text = {
-	.name = "text", .seal = seal_text, .bounds = sealed_box, .field = text_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_text,
+	.name = "text", .seal = seal_text, .bounds = sealed_box, .field = text_field, .slope = 1, .feature = sealed_feature,
+	.mesh = mesh_text,
 };
 
 /* About an axis. */
@@ -302,6 +313,7 @@ static int seal_turned(struct arena *a, struct pov_solid *s, const char **why, s
 		return 1;
 	if (!half.lost)
 		mirror(q->outlines, &half);
+	pov_outline_index(q->outlines);
 	if (half.lost || q->outlines->lost)
 		return err_memory(e, pov_kind_name(s->kind));
 	measure(q, &plane);
@@ -350,8 +362,10 @@ static void mesh_turned(const struct pov_solid *s, const struct pov_drawing *d)
 }
 
 const struct pov_shape pov_shape_lathe = {
-	.name = "lathe", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_turned,
+	.name = "lathe", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1,
+	.feature = sealed_feature, .mesh = mesh_turned,
 };
 const struct pov_shape pov_shape_sor = {
-	.name = "sor", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1, .feature = sealed_feature, .mesh = mesh_turned,
+	.name = "sor", .seal = seal_turned, .bounds = sealed_box, .field = turned_field, .slope = 1, .feature = sealed_feature,
+	.mesh = mesh_turned,
 };

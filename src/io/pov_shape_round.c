@@ -140,10 +140,12 @@ static void mesh_cone(const struct pov_solid *s, const struct pov_drawing *d)
 }
 
 const struct pov_shape pov_shape_cylinder = {
-	.name = "cylinder", .seal = seal_cone, .bounds = cone_box, .field = cone_field, .slope = 1, .feature = cone_feature, .mesh = mesh_cone,
+	.name = "cylinder", .seal = seal_cone, .bounds = cone_box, .field = cone_field, .slope = 1, .feature = cone_feature,
+	.mesh = mesh_cone,
 };
 const struct pov_shape pov_shape_cone = {
-	.name = "cone", .seal = seal_cone, .bounds = cone_box, .field = cone_field, .slope = 1, .feature = cone_feature, .mesh = mesh_cone,
+	.name = "cone", .seal = seal_cone, .bounds = cone_box, .field = cone_field, .slope = 1, .feature = cone_feature,
+	.mesh = mesh_cone,
 };
 
 static int seal_torus(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
@@ -191,7 +193,8 @@ static void mesh_torus(const struct pov_solid *s, const struct pov_drawing *d)
 }
 
 const struct pov_shape pov_shape_torus = {
-	.name = "torus", .seal = seal_torus, .bounds = torus_box, .field = torus_field, .slope = 1, .feature = torus_feature, .mesh = mesh_torus,
+	.name = "torus", .seal = seal_torus, .bounds = torus_box, .field = torus_field, .slope = 1, .feature = torus_feature,
+	.mesh = mesh_torus,
 };
 
 static int seal_superellipsoid(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
@@ -255,5 +258,6 @@ static void mesh_superellipsoid(const struct pov_solid *s, const struct pov_draw
 }
 
 const struct pov_shape pov_shape_superellipsoid = {
-	.name = "superellipsoid", .seal = seal_superellipsoid, .bounds = superellipsoid_box, .field = superellipsoid_field, .reach = superellipsoid_reach, .mesh = mesh_superellipsoid,
+	.name = "superellipsoid", .seal = seal_superellipsoid, .bounds = superellipsoid_box, .field = superellipsoid_field,
+	.reach = superellipsoid_reach, .mesh = mesh_superellipsoid,
 };

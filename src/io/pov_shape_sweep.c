@@ -210,5 +210,6 @@ static void mesh_sweep(const struct pov_solid *s, const struct pov_drawing *d)
 }
 
 const struct pov_shape pov_shape_sphere_sweep = {
-	.name = "sphere_sweep", .seal = seal_sweep, .bounds = sweep_bounds, .field = sweep_field, .slope = 1, .feature = sweep_feature, .mesh = mesh_sweep,
+	.name = "sphere_sweep", .seal = seal_sweep, .bounds = sweep_bounds, .field = sweep_field, .slope = 1,
+	.feature = sweep_feature, .mesh = mesh_sweep,
 };

@@ -235,9 +235,10 @@ bool pov_solid_inside(const struct pov_solid *s, struct vec p);
  * Clips and bounds do not count, nor what a difference takes away, as there. */
 struct box pov_solid_extent(const struct pov_solid *s);
 
-/* POV-Ray's trace(): the first point of the surface on the ray from 'from' along 'toward' (any length), by the surface pov_mesh makes
- * at the default resolution; normal: unit, outward (inward of what is inverse), as there. The mesh is made at the first call and kept in the arena with
- * the node, so trace before moving on, not after changing the shape. false: a miss, *at and *normal zero; memory out is a miss. */
+/* POV-Ray's trace(): the first point of the surface on the ray from 'from' along 'toward' (any length), by the surface pov_mesh
+ * makes at the default resolution; normal: unit, outward (inward of what is inverse), as there. The mesh is made at the first call
+ * and kept in the arena with the node, so trace before moving on, not after changing the shape. false: a miss, *at and *normal zero;
+ * memory out is a miss. */
 bool pov_solid_trace(struct arena *a, struct pov_solid *s, struct vec from, struct vec toward, struct vec *at, struct vec *normal);
 
 /* heights of a height field: f(x, y, 0) with x = i / (width - 1), y = j / (height - 1), j from the top row, z = 1. Both at least 2.

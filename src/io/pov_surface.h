@@ -4,10 +4,11 @@
 
 #include "io/pov_cut.h"
 
-/* How surfaces are made. region: finite box at which planes end; close: one within it, for
- * unbounded surfaces that are marched through. size: of the scene, to which n, the segments of a full
- * circle, belongs; smaller shapes get fewer, to the part 'least'. unbounded: counts shapes cut off at the region. eye: NULL, or where large spheres
- * are looked at from: they are made finer there. plain: materials of single triangles of meshes do not count. even: set while what is drawn is to be cut. scratch: for working space. */
+/* How surfaces are made. region: finite box at which planes end; close: one within it, for unbounded surfaces that are marched
+ * through. size: of the scene, to which n, the segments of a full circle, belongs; smaller shapes get fewer, to the part 'least'.
+ * unbounded: counts shapes cut off at the region. eye: NULL, or where large spheres are looked at from: they are made finer there.
+ * plain: materials of single triangles of meshes do not count. even: set while what is drawn is to be cut. scratch: for working
+ * space. */
 struct pov_surface {
 	struct box region, close;
 	double size, least;

@@ -49,6 +49,11 @@ struct pov_term *pov_term_resolve(struct arena *a, const struct pov_solid *s, co
 /* The box of the set, inversion included. */
 struct box pov_term_box(const struct pov_term *t);
 
+/* Set box and extent from the parts'; a union of many gets its tree. 0, or -1 when memory is out. */
+int pov_term_meet_box(struct arena *a, struct pov_term *t);
+int pov_term_union_box(struct arena *a, struct pov_term *t);
+void pov_term_clip_box(struct pov_term *t);
+
 /* Of a leaf, at a point of the scene; inversion not included. */
 double pov_term_field(const struct pov_term *t, struct vec p);
 

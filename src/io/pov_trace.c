@@ -51,7 +51,8 @@ static struct pov_traced *make(struct arena *a, const struct pov_solid *s)
 		t->leaf_count = 0;
 		if (t->leaves)
 			number_leaves(t, term);
-		struct pov_surface surface = { .region = near_part(term->extent, wide), .close = near_part(term->extent, narrow), .n = options.resolution, .least = 0.75, .plain = true, .scratch = &scratch };
+		struct pov_surface surface = { .region = near_part(term->extent, wide), .close = near_part(term->extent, narrow),
+			                       .n = options.resolution, .least = 0.75, .plain = true, .scratch = &scratch };
 		surface.size = box_diagonal(&surface.region);
 		if (t->leaves && term->kind != TERM_EMPTY)
 			pov_surface(&surface, term, false, &list);
