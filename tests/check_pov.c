@@ -6,7 +6,7 @@
  * POV-Ray is asked by its trace(): the scene is copied, without what may not stand in a union (camera, lights, settings), into
  *   #declare All = union { #include "scene" }
  * and every ray is traced against that. Half of the rays are the camera's, half go between random points of the box; a ray agrees if
- * both miss, or both hit within 2 % of the distance. Surfaces without end count within the box of our scene only. */
+ * both miss, or both hit within 2 % of the distance. Surfaces without end count within the box of our scene only, domes not at all. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -440,7 +440,6 @@ static int read_scene(const struct check *c, struct scene *s, struct primitives 
 	o.directory_count = c->folder_count + 1;
 	o.width = WIDTH;
 	o.height = HEIGHT;
-	o.mesh.keep_domes = true;
 	int status = text_read_file(&t, c->scene, 1 << 30, e);
 	if (status == 0)
 		status = pov_read(s, c->scene, t.bytes, t.size, &o, &summary, e);
