@@ -95,7 +95,6 @@ static bool read_constant(const struct pov *p, uint32_t word, struct pov_value *
 	case WORD_v: *v = (struct pov_value){ .type = TYPE_NUMBER, .count = 2, .a = { 0, 1 } }; return true;
 	case WORD_t: *v = (struct pov_value){ .type = TYPE_NUMBER, .count = 4, .a = { 0, 0, 0, 1 } }; return true;
 	case WORD_pi: x = 3.14159265358979323846; break;
-	case WORD_tau: x = 6.28318530717958647692; break;
 	case WORD_true: case WORD_on: case WORD_yes: x = 1; break;
 	case WORD_false: case WORD_off: case WORD_no: case WORD_now: x = 0; break;
 	/* One picture, not one of an animation. */

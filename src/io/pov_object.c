@@ -119,8 +119,8 @@ static void add_lamps(struct pov_object *o, struct pov_lamp *lamps)
 	*last = lamps;
 }
 
-/* Objects in braces, as clips or bounds of s; 'other' is the word that stands for the other list. */
-static void read_limits(struct pov *p, struct pov_solid *s, struct pov_solid **list, struct pov_solid *other, uint32_t word)
+/* Objects in braces, added to a list of clips or bounds; 'word' stands for what the other list holds. */
+static void read_limits(struct pov *p, struct pov_solid **list, const struct pov_solid *other, uint32_t word)
 {
 	struct pov_solid **last = list;
 	while (*last)
@@ -149,7 +149,6 @@ static void read_limits(struct pov *p, struct pov_solid *s, struct pov_solid **l
 		}
 	}
 	pov_expect(p, '}');
-	(void)s;
 }
 
 static bool is_switch(uint32_t word)
@@ -196,7 +195,7 @@ static bool read_modifier(struct pov *p, const struct pov_token *t, struct pov_o
 		bool clip = t->name == WORD_clipped_by;
 		pov_take(p);
 		struct pov_solid **list = !s ? &none : clip ? &s->clip : &s->bound;
-		read_limits(p, s, list, !s ? NULL : clip ? s->bound : s->clip, clip ? WORD_bounded_by : WORD_clipped_by);
+		read_limits(p, list, !s ? NULL : clip ? s->bound : s->clip, clip ? WORD_bounded_by : WORD_clipped_by);
 	} else if (t->name == WORD_inverse) {
 		pov_take(p);
 		if (s)

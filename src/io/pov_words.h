@@ -14,7 +14,7 @@
 	X(case) X(range) X(break) X(macro) X(version) X(default) X(debug) X(warning) X(error) X(render) X(statistics) X(fopen) \
 	X(fclose) X(read) X(write) X(append) X(deprecated) X(once) \
 	/* constants */ \
-	X(x) X(y) X(z) X(u) X(v) X(t) X(pi) X(tau) X(true) X(false) X(on) X(off) X(yes) X(no) X(clock) X(clock_delta) X(clock_on) \
+	X(x) X(y) X(z) X(u) X(v) X(t) X(pi) X(true) X(false) X(on) X(off) X(yes) X(no) X(clock) X(clock_delta) X(clock_on) \
 	X(image_width) X(image_height) X(frame_number) X(initial_frame) X(final_frame) X(initial_clock) X(final_clock) X(now) \
 	/* colours */ \
 	X(color) X(colour) X(rgb) X(rgbf) X(rgbt) X(rgbft) X(srgb) X(srgbf) X(srgbt) X(srgbft) X(red) X(green) X(blue) X(filter) \
@@ -33,13 +33,13 @@
 	/* objects */ \
 	X(sphere) X(box) X(cylinder) X(cone) X(torus) X(plane) X(disc) X(triangle) X(smooth_triangle) X(polygon) X(mesh) X(mesh2) \
 	X(prism) X(lathe) X(sor) X(sphere_sweep) X(superellipsoid) X(blob) X(component) X(threshold) X(strength) X(quadric) X(poly) \
-	X(polynomial) X(cubic) X(quartic) X(height_field) X(bicubic_patch) X(text) X(ttf) X(isosurface) X(parametric) \
+	X(cubic) X(quartic) X(height_field) X(bicubic_patch) X(text) X(ttf) X(isosurface) X(parametric) \
 	X(julia_fractal) X(ovus) X(union) X(merge) X(intersection) X(difference) X(composite) X(object) X(light_source) X(light_group) \
 	X(linear_sweep) X(conic_sweep) X(tolerance) X(type) X(flatness) X(u_steps) X(v_steps) X(smooth) X(water_level) \
 	X(vertex_vectors) X(normal_vectors) X(uv_vectors) X(texture_list) X(face_indices) X(normal_indices) X(uv_indices) \
 	X(inside_vector) X(contained_by) X(accuracy) X(max_gradient) X(evaluate) X(max_trace) X(all_intersections) X(precompute) \
-	X(solid) X(major_radius) X(albinus) X(pot) X(png) X(tga) X(ppm) X(pgm) X(gif) X(jpeg) X(tiff) X(bmp) X(sys) X(exr) X(hdr) \
-	X(iff) X(df3) X(dump) X(charset) X(ascii) X(utf8) \
+	X(pot) X(png) X(tga) X(ppm) X(pgm) X(gif) X(jpeg) X(tiff) X(bmp) X(sys) X(exr) X(hdr) \
+	X(iff) X(df3) X(charset) X(ascii) X(utf8) \
 	/* modifiers */ \
 	X(translate) X(scale) X(rotate) X(matrix) X(no_shadow) X(no_image) X(no_reflection) X(no_radiosity) X(hollow) \
 	X(double_illuminate) X(sturm) X(hierarchy) X(cutaway_textures) X(split_union) X(open) X(clipped_by) X(bounded_by) \
