@@ -4,7 +4,7 @@
 #include "io/pov_place.h"
 #include "io/pov_tree.h"
 
-enum { CELLS_A_RADIUS = 5, CELLS_LEAST = 2, CELLS_MOST = 4000, CELLS_MANY = 200000 };
+enum { CELLS_A_RADIUS = 7, CELLS_LEAST = 2, CELLS_MOST = 4000, CELLS_MANY = 200000 };
 
 struct component {
 	struct pov_component given;
