@@ -5,10 +5,13 @@ BUILD   := build/$(if $(SAN),$(subst $(comma),-,$(SAN)),plain)
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wno-psabi -Werror
 CF       = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(OPT) -g -ffp-contract=off -pthread -Isrc -I. \
            $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all) $(CFLAGS)
-ASSIMP  := $(shell pkg-config --exists assimp 2>/dev/null && echo yes)
-LIBS    := $(if $(ASSIMP),-lassimp) -lyaml -lpng -lz -lm
+# Libraries that are used where they are installed: fonts and JPEG images of POV-Ray scenes, mesh formats.
+FOUND   := $(foreach p,freetype2 libjpeg assimp,$(shell pkg-config --exists $p 2>/dev/null && echo $p))
+LIBS    := $(if $(filter assimp,$(FOUND)),-lassimp) -lyaml -lpng -lz -lm \
+           $(foreach p,$(filter-out assimp,$(FOUND)),$(shell pkg-config --libs $p))
 FLOORS  := base geom scene spd io accel cost trace batch report cli
-PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev gnuplot-nox pkg-config libassimp-dev
+PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev gnuplot-nox pkg-config libfreetype-dev \
+            libjpeg-dev libassimp-dev
 VERSION := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
 
 # Compiled a second time for processors with AVX2, chosen when the program runs.
@@ -49,6 +52,9 @@ hierarchies: all ## the experiments of "A cost model for ray tracing hierarchies
 bench: $(BUILD)/tests/bench ## time building and shooting, beside Embree where libembree-dev is installed
 	@./$(BUILD)/tests/bench
 
+check-pov: $(BUILD)/tests/check_pov ## hold POV-Ray's example scenes against POV-Ray (needs povray, povray-examples, povray-includes)
+	@sh tests/check_pov.sh ./$(BUILD)/tests/check_pov
+
 golden: export UPDATE_GOLDEN = 1
 golden: test ## rewrite tests/golden/, then read 'git diff'
 
@@ -67,17 +73,28 @@ $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(OBJ)
 EMBREE := $(if $(wildcard /usr/include/embree3/rtcore.h),yes)
 $(BUILD)/tests/bench: $(BUILD)/tests/bench.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS) $(if $(EMBREE),-lembree3)
+$(BUILD)/tests/check_pov: $(BUILD)/tests/check_pov.o $(OBJ)
+	$(CC) $(CF) -D_DEFAULT_SOURCE $^ -o $@ $(LIBS)
+$(BUILD)/tests/check_pov.o: CFLAGS += -D_DEFAULT_SOURCE
+
 $(BUILD)/tests/bench.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
 
 $(BUILD)/%.avx2.o: %.c
 	@mkdir -p $(@D)
 	$(CC) $(CF) -mavx2 -MMD -MP -c $< -o $@
 
-$(BUILD)/src/io/mesh_import.o: CFLAGS += $(if $(ASSIMP),-DHAVE_ASSIMP)
+$(BUILD)/src/io/mesh_import.o: CFLAGS += $(if $(filter assimp,$(FOUND)),-DHAVE_ASSIMP)
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	$(CC) $(CF) -MMD -MP -c $< -o $@
+
+ifneq ($(filter freetype2,$(FOUND)),)
+$(BUILD)/src/io/pov_font.o: CFLAGS += -DHAVE_FREETYPE $(shell pkg-config --cflags freetype2)
+endif
+ifneq ($(filter libjpeg,$(FOUND)),)
+$(BUILD)/src/io/pov_picture.o: CFLAGS += -DHAVE_JPEG $(shell pkg-config --cflags libjpeg)
+endif
 
 # The version is looked up at every build, but main is compiled anew only when it changed.
 $(BUILD)/src/main.o: CFLAGS += -DVERSION='"$(VERSION)"'
@@ -87,6 +104,6 @@ $(BUILD)/version: .FORCE
 
 -include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d
 
-.PHONY: all deps test layers sweep paper hierarchies bench golden clean help .FORCE
+.PHONY: all deps test layers sweep paper hierarchies bench check-pov golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:

@@ -234,7 +234,7 @@ static void replay_counts_what_tracing_counts(void **state)
 static void cameras_look_where_they_should(void **state)
 {
 	(void)state;
-	const struct view v = { true, { { { 0, 0, 5 } } }, { { { 0, 0, 0 } } }, { { { 0, 1, 0 } } }, 90, 1, 10, 10 };
+	const struct view v = { .given = true, .from = vec(0, 0, 5), .up = vec(0, 1, 0), .angle = 90, .hither = 1, .width = 10, .height = 10 };
 	const struct box b = { { { { -1, -1, -1 } } }, { { { 1, 1, 1 } } } };
 	struct camera c = camera_make(&v, &b, 200, 100);
 	struct vec middle = camera_direction(&c, 0.5, 0.5), corner = camera_direction(&c, 0, 0);
@@ -242,11 +242,22 @@ static void cameras_look_where_they_should(void **state)
 	assert_near(corner.x / corner.z, 2, 1e-12); /* 90 degrees high, twice as wide */
 	assert_near(corner.y / -corner.z, 1, 1e-12);
 	/* Without a view, and looking along 'up': still a picture of the box. */
-	const struct view none = { 0 }, along = { true, { { { 0, 0, 5 } } }, { { { 0, 0, 0 } } }, { { { 0, 0, 1 } } }, 45, 1, 10, 10 };
+	const struct view none = { 0 }, along = { .given = true, .from = vec(0, 0, 5), .up = vec(0, 0, 1), .angle = 45, .hither = 1, .width = 10, .height = 10 };
 	c = camera_make(&none, &b, 1, 1);
 	assert_true(vec_dot(camera_direction(&c, 0.5, 0.5), c.from) < -0.99 * vec_length(c.from));
 	c = camera_make(&along, &b, 1, 1);
 	assert_near(vec_length(camera_direction(&c, 0.3, 0.7)), 1, 1e-12);
+	/* A window of any shape, whatever the picture's; parallel rays start in it. */
+	struct view window = { .given = true, .from = vec(1, 2, 3), .window = true, .direction = vec(0, 0, 2), .right = vec(4, 0, 0),
+		               .window_up = vec(0, 8, 0) };
+	c = camera_make(&window, &b, 100, 7);
+	corner = camera_direction(&c, 1, 0);
+	assert_near(corner.x / corner.z, 1, 1e-12);
+	assert_near(corner.y / corner.z, 2, 1e-12);
+	window.parallel = true;
+	c = camera_make(&window, &b, 100, 7);
+	assert_near(vec_length(vec_sub(camera_origin(&c, 1, 0), vec(3, 6, 3))), 0, 1e-12);
+	assert_near(vec_length(vec_sub(camera_direction(&c, 1, 0), vec(0, 0, 1))), 0, 1e-12);
 }
 
 static void light_bends_as_snell_says(void **state)

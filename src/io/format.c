@@ -5,6 +5,7 @@
 #include "io/nff.h"
 #include "io/obj.h"
 #include "io/ply.h"
+#include "io/pov_format.h"
 #include "io/pov_write.h"
 
 #include <ctype.h>
@@ -46,7 +47,7 @@ static bool is_glb(const char *text, size_t n)
 
 const struct format formats[] = {
 	{ .name = "NFF", .endings = "nff aff", .read = read_nff, .write = write_nff, .is = nff_is },
-	{ .name = "POV-Ray", .endings = "pov inc", .write = pov_write },
+	{ .name = "POV-Ray", .endings = "pov inc", .read = pov_format_read, .write = pov_write },
 	{ .name = "OBJ", .endings = "obj", .read = mesh_read, .write = obj_write, .write_companion = obj_write_materials,
 	  .companion_ending = "mtl" },
 	{ .name = "PLY", .endings = "ply", .read = mesh_read, .write = ply_write, .is = is_ply },

@@ -33,7 +33,8 @@ void scene_free(struct scene *s)
 void scene_set_view(struct scene *s, struct vec from, struct vec at, struct vec up, double angle, double hither, int width,
                     int height)
 {
-	s->view = (struct view){ true, from, at, up, angle, hither, width, height };
+	s->view = (struct view){ .given = true, .from = from, .at = at, .up = up, .angle = angle, .hither = hither, .width = width,
+		                 .height = height };
 }
 
 void scene_set_background(struct scene *s, double r, double g, double b)

@@ -15,12 +15,17 @@ struct color {
 	double r, g, b; /* 0..1 */
 };
 
-/* NFF's view. angle: full vertical angle in degrees; resolution in pixels. given: the scene has one. */
+/* NFF's view. angle: full vertical angle in degrees; resolution in pixels. given: the scene has one.
+ * window: the picture is a window in space of any shape and handedness, as in POV-Ray; then the ray through (x, y), each 0 to 1 from
+ * the upper left, starts at 'from' and points along direction + (x - 1/2) right + (1/2 - y) window_up; parallel: it points along
+ * 'direction' and starts aside instead. The rest then says the same as nearly as it can. */
 struct view {
 	bool given;
 	struct vec from, at, up;
 	double angle, hither;
 	int width, height;
+	bool window, parallel;
+	struct vec direction, right, window_up;
 };
 
 /* A point light; 'colored' is false where the scene gives no colour (then it is white, its strength unspecified). */

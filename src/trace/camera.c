@@ -17,9 +17,20 @@ static struct vec pick_up(struct vec d)
 	return fabs(d.z) < 0.9 * vec_length(d) ? vec(0, 0, 1) : vec(0, 1, 0);
 }
 
+static struct camera camera_window(const struct view *v)
+{
+	struct vec aside = vec_scale(vec_sub(v->window_up, v->right), 0.5), down = vec_scale(v->window_up, -1);
+	if (v->parallel)
+		return (struct camera){ .from = vec_add(v->from, aside), .right = v->right, .down = down, .toward = vec_unit(v->direction),
+			                .parallel = true };
+	return (struct camera){ .from = v->from, .corner = vec_add(v->direction, aside), .right = v->right, .down = down };
+}
+
 struct camera camera_make(const struct view *v, const struct box *bounds, double width, double height)
 {
 	struct view view = v->given ? *v : view_whole(bounds);
+	if (view.window)
+		return camera_window(&view);
 	struct vec toward = vec_unit(vec_sub(view.at, view.from));
 	if (vec_length(toward) == 0)
 		toward = vec(0, 0, -1);
@@ -37,7 +48,14 @@ struct camera camera_make(const struct view *v, const struct box *bounds, double
 	};
 }
 
+struct vec camera_origin(const struct camera *c, double x, double y)
+{
+	return c->parallel ? vec_add(c->from, vec_add(vec_scale(c->right, x), vec_scale(c->down, y))) : c->from;
+}
+
 struct vec camera_direction(const struct camera *c, double x, double y)
 {
+	if (c->parallel)
+		return c->toward;
 	return vec_unit(vec_add(c->corner, vec_add(vec_scale(c->right, x), vec_scale(c->down, y))));
 }

@@ -134,7 +134,7 @@ static void push_primaries(struct block *b, size_t first, size_t count)
 	for (size_t i = 0; i < count; i++) {
 		double x, y;
 		place_sample(r, first + i, &x, &y);
-		struct ray ray = { .o = r->camera.from, .d = camera_direction(&r->camera, x, y), .t_max = INFINITY,
+		struct ray ray = { .o = camera_origin(&r->camera, x, y), .d = camera_direction(&r->camera, x, y), .t_max = INFINITY,
 			           .slack = r->accel->slack, .from = NO_PRIMITIVE };
 		push(b, &b->now, ray, (struct origin){ { 1, 1, 1 }, (uint32_t)i, RAY_PRIMARY, 1 });
 	}
