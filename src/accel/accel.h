@@ -7,6 +7,13 @@
  *   inner_step   inner nodes visited while stepping from one leaf to the next
  *   inner_start  inner nodes visited by the first descent, root included
  *   hits         1 if a primitive ends the ray, else 0
+ *   boxes        ray-box tests; bounding volume hierarchies only
+ *
+ * The cells of a bounding volume hierarchy are boxes that may overlap and leave gaps. A node is visited when its box, closed, is met
+ * within slack by what is left of the ray at that moment: up to the nearest hit so far. leaves and inner_step count the nodes
+ * visited (inner_start stays 0), tests the primitives listed in visited leaves; a ray that leads out of the root visits what it
+ * touches. A node of k children costs k box tests, which are shared by all children: the cost of such a structure is
+ * alpha * inner_step + beta * tests (Aila, Karras, Laine 2013 weigh them 1.2 : 1).
  *
  * Rules that make the closed forms of cost/ exact:
  *   1 a hit is accepted in the leaf where t <= t_exit + slack; one further out is ignored there and found again later
@@ -26,10 +33,11 @@
 #include <stdint.h>
 
 struct tally {
-	uint64_t leaves, tests, inner_step, inner_start, hits;
+	uint64_t leaves, tests, inner_step, inner_start, hits, boxes;
 };
 
-/* One cell as a predictor sees it; inner cells are listed too. A leaf is convex and the leaves partition the root. */
+/* One cell as a predictor sees it; inner cells are listed too. A leaf is convex and the leaves partition the root, but for those of
+ * a bounding volume hierarchy. */
 struct cell {
 	struct box bounds;
 	double area;               /* surface area, scene units^2 */
@@ -72,6 +80,8 @@ struct accel {
 	const struct primitives *primitives; /* borrowed; must outlive the structure */
 	struct box root;                     /* the region that is partitioned: holds every primitive */
 	double slack;                        /* 1e-9 of the root's diagonal */
+	bool volumes;                        /* a bounding volume hierarchy */
+	int threads;                         /* that build may use; the structure does not depend on it */
 	void *impl;                          /* the structure's own nodes, inside mem */
 	struct arena mem;                    /* owned */
 	uint64_t nodes, leaves, empty_leaves, references;
@@ -86,7 +96,17 @@ const struct accel_ops *accel_find(const char *name);
 /* Build into *a (zeroed here). opt: the structure's own options, filled from its keys. 0, or -1 and *e; then nothing is held. */
 int accel_build(struct accel *a, const struct accel_ops *ops, const void *opt, const struct primitives *p, struct err *e);
 
+/* The same on up to 'threads' threads. */
+int accel_build_on(struct accel *a, const struct accel_ops *ops, const void *opt, const struct primitives *p, int threads,
+                   struct err *e);
+
 void accel_free(struct accel *a);
+
+/* What alpha weighs in the cost of a ray. */
+static inline uint64_t accel_steps(const struct accel *a, const struct tally *n)
+{
+	return a->volumes ? n->inner_step : n->leaves;
+}
 
 /* Whether the structure has an option 'key' that means something beside its others. */
 bool accel_applies(const struct accel_ops *ops, const void *opt, const char *key);

@@ -22,7 +22,15 @@ struct prediction {
 	double inner_restart;       /* inner nodes where every leaf is found from the root */
 	double area_inside;         /* sum of the surface inside the cells; equals the primitives' area */
 	double area_leaves;         /* sum of the leaves' surface areas */
+	/* Bounding volume hierarchies only (cost/bvh.h): the expected cost of the nodes met up to the first hit, and its parts. */
+	double volumes, sah, epo, dq, surface_share;
 };
+
+/* Everything NAN. */
+static inline struct prediction prediction_unknown(void)
+{
+	return (struct prediction){ NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN };
+}
 
 /* 0, or -1 and *e: memory; EXT over what bounds no solids. */
 int cost_predict(struct prediction *p, const struct accel *a, enum law law, double alpha, double beta, struct err *e);

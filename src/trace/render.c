@@ -49,7 +49,7 @@ struct wave {
 struct block_sums {
 	struct class_tally classes[RAY_CLASSES];
 	struct tally square, cross; /* per sample: counts squared, and times the sample's rays */
-	uint64_t rays, rays_square, leaves_tests;
+	uint64_t rays, rays_square, steps_tests;
 	struct segment *segments;   /* from malloc, or NULL */
 	size_t segment_count, segment_room;
 };
@@ -205,13 +205,14 @@ static void add_tally(struct tally *to, const struct tally *n)
 	to->inner_step += n->inner_step;
 	to->inner_start += n->inner_start;
 	to->hits += n->hits;
+	to->boxes += n->boxes;
 }
 
 static void count_ray(struct block *b, const struct origin *from, const struct tally *n)
 {
 	struct class_tally *c = &b->sums->classes[from->class];
 	c->rays++;
-	if (n->leaves == 0) {
+	if (n->leaves + n->inner_step == 0) {
 		c->missed++;
 		return;
 	}
@@ -264,8 +265,9 @@ static void sum_samples(struct block *b, size_t count)
 		ADD(inner_step);
 		ADD(inner_start);
 		ADD(hits);
+		ADD(boxes);
 #undef ADD
-		s->leaves_tests += n->leaves * n->tests;
+		s->steps_tests += accel_steps(b->render->accel, n) * n->tests;
 		s->rays += rays;
 		s->rays_square += rays * rays;
 	}
@@ -324,7 +326,7 @@ static void sum_up(struct rendering *out, const struct render *r, size_t blocks)
 		add_tally(&all.cross, &b->cross);
 		all.rays += b->rays;
 		all.rays_square += b->rays_square;
-		all.leaves_tests += b->leaves_tests;
+		all.steps_tests += b->steps_tests;
 	}
 	a->rays = all.rays;
 #define MEAN(field) a->field = ratio_mean((double)a->sum.field, (double)all.square.field, (double)all.cross.field, &all, r->samples)
@@ -333,11 +335,12 @@ static void sum_up(struct rendering *out, const struct render *r, size_t blocks)
 	MEAN(inner_step);
 	MEAN(inner_start);
 	MEAN(hits);
+	MEAN(boxes);
 #undef MEAN
-	double square = alpha * alpha * (double)all.square.leaves + beta * beta * (double)all.square.tests +
-	                2 * alpha * beta * (double)all.leaves_tests;
-	a->cost = ratio_mean(alpha * (double)a->sum.leaves + beta * (double)a->sum.tests, square,
-	                     alpha * (double)all.cross.leaves + beta * (double)all.cross.tests, &all, r->samples);
+	double square = alpha * alpha * (double)accel_steps(r->accel, &all.square) + beta * beta * (double)all.square.tests +
+	                2 * alpha * beta * (double)all.steps_tests;
+	a->cost = ratio_mean(alpha * (double)accel_steps(r->accel, &a->sum) + beta * (double)a->sum.tests, square,
+	                     alpha * (double)accel_steps(r->accel, &all.cross) + beta * (double)all.cross.tests, &all, r->samples);
 }
 
 static unsigned char to_byte(double x)

@@ -47,8 +47,8 @@ static void replay_block(struct pixel *pixels, struct work *w, const struct segm
 	a->ops->shoot_many(a, w->rays, count, w->hits, w->tallies);
 	for (size_t i = 0; i < count; i++) {
 		struct pixel *p = &pixels[segments[i].sample];
-		p->cost += alpha * (double)w->tallies[i].leaves + beta * (double)w->tallies[i].tests;
-		p->rays += w->tallies[i].leaves > 0;
+		p->cost += alpha * (double)accel_steps(a, &w->tallies[i]) + beta * (double)w->tallies[i].tests;
+		p->rays += w->tallies[i].leaves + w->tallies[i].inner_step > 0;
 	}
 }
 

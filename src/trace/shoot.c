@@ -10,10 +10,10 @@
 /* Rays drawn, sorted and shot together; and the cells a side, as a power of two, of the grid they are sorted by. */
 enum { BLOCK = 65536, SORT_LEVELS = 5, SORT_CELLS = 1 << 3 * SORT_LEVELS };
 
-/* What a block of rays sums up: counts, their squares, and leaves times tests. Integers: the order does not matter. */
+/* What a block of rays sums up: counts, their squares, and steps (accel_steps) times tests. Integers: the order does not matter. */
 struct block {
 	struct tally sum, square;
-	uint64_t leaves_tests;
+	uint64_t steps_tests;
 };
 
 struct run {
@@ -24,7 +24,7 @@ struct run {
 	atomic_bool failed; /* memory ran out */
 };
 
-static void add_ray(struct block *b, const struct tally *n)
+static void add_ray(struct block *b, const struct accel *a, const struct tally *n)
 {
 #define ADD(field) do { b->sum.field += n->field; b->square.field += n->field * n->field; } while (0)
 	ADD(leaves);
@@ -32,8 +32,9 @@ static void add_ray(struct block *b, const struct tally *n)
 	ADD(inner_step);
 	ADD(inner_start);
 	ADD(hits);
+	ADD(boxes);
 #undef ADD
-	b->leaves_tests += n->leaves * n->tests;
+	b->steps_tests += accel_steps(a, n) * n->tests;
 }
 
 /* Number of the grid cell that holds p, along a Z-order curve (Morton 1966). */
@@ -90,7 +91,7 @@ static void shoot_block(void *ctx, size_t i)
 	draw_sorted(w, &run->source, first, n);
 	a->ops->shoot_many(a, w->sorted, n, w->hit, w->tally);
 	for (size_t k = 0; k < n; k++)
-		add_ray(&b, &w->tally[k]);
+		add_ray(&b, a, &w->tally[k]);
 	run->blocks[i] = b;
 	free(w);
 }
@@ -104,7 +105,7 @@ static struct mean mean_of(double sum, double square, double n)
 /* Merge the blocks in order. Squares are added as doubles: only the standard errors need them. */
 static void sum_up(struct actual *out, const struct run *run, size_t blocks, double alpha, double beta)
 {
-	double leaves = 0, tests = 0, step = 0, start = 0, hits = 0, both = 0, n = (double)run->count;
+	double leaves = 0, tests = 0, step = 0, start = 0, hits = 0, boxes = 0, both = 0, n = (double)run->count;
 	struct tally *sum = &out->sum;
 	for (size_t i = 0; i < blocks; i++) {
 		const struct block *b = &run->blocks[i];
@@ -113,20 +114,24 @@ static void sum_up(struct actual *out, const struct run *run, size_t blocks, dou
 		sum->inner_step += b->sum.inner_step;
 		sum->inner_start += b->sum.inner_start;
 		sum->hits += b->sum.hits;
+		sum->boxes += b->sum.boxes;
 		leaves += (double)b->square.leaves;
 		tests += (double)b->square.tests;
 		step += (double)b->square.inner_step;
 		start += (double)b->square.inner_start;
 		hits += (double)b->square.hits;
-		both += (double)b->leaves_tests;
+		boxes += (double)b->square.boxes;
+		both += (double)b->steps_tests;
 	}
 	out->leaves = mean_of((double)sum->leaves, leaves, n);
 	out->tests = mean_of((double)sum->tests, tests, n);
 	out->inner_step = mean_of((double)sum->inner_step, step, n);
 	out->inner_start = mean_of((double)sum->inner_start, start, n);
 	out->hits = mean_of((double)sum->hits, hits, n);
-	out->cost = mean_of(alpha * (double)sum->leaves + beta * (double)sum->tests,
-	                    alpha * alpha * leaves + beta * beta * tests + 2 * alpha * beta * both, n);
+	out->boxes = mean_of((double)sum->boxes, boxes, n);
+	double steps = run->source.accel->volumes ? step : leaves;
+	out->cost = mean_of(alpha * (double)accel_steps(run->source.accel, sum) + beta * (double)sum->tests,
+	                    alpha * alpha * steps + beta * beta * tests + 2 * alpha * beta * both, n);
 }
 
 int shoot_rays(struct actual *out, const struct accel *a, enum workload w, uint64_t count, uint64_t seed, double alpha,

@@ -18,7 +18,8 @@ struct mean {
 struct actual {
 	uint64_t rays;
 	struct tally sum; /* exact */
-	struct mean cost, leaves, tests, inner_step, inner_start, hits; /* per ray; cost = alpha leaves + beta tests */
+	/* Per ray; cost = alpha leaves + beta tests, for volumes alpha inner_step + beta tests. */
+	struct mean cost, leaves, tests, inner_step, inner_start, hits, boxes;
 };
 
 /* Shoot rays 0 .. count-1 of the workload; every number follows from (seed, ray number), whatever the threads.

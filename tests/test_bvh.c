@@ -1,0 +1,169 @@
+/* Bounding volume hierarchies: every builder and every traversal finds what the list finds, visits what the theory says, and is the
+ * same for any number of threads. */
+#include "tests/check.h"
+
+#include "accel/bvh.h"
+#include "accel/root.h"
+#include "base/par.h"
+#include "cost/cost.h"
+#include "trace/rays.h"
+#include "trace/replay.h"
+
+#include <string.h>
+
+static const char *const builders[] = { "binned", "sah", "median", "insertion", "spatial" };
+enum { BUILDERS = 5, TRAVERSALS = 8 };
+
+static struct bvh_options options(void)
+{
+	struct bvh_options o;
+	key_defaults(accel_find("bvh")->keys, &o);
+	return o;
+}
+
+static struct accel build(const char *name, const void *o, const struct primitives *p)
+{
+	struct err e = { 0 };
+	struct accel a;
+	if (accel_build_on(&a, accel_find(name), o, p, par_processors(), &e) != 0 || a.ops->check(&a, &e) != 0)
+		fail_msg("%s", e.text);
+	return a;
+}
+
+/* The list's answer to 'count' invariant rays. */
+struct oracle {
+	struct accel list;
+	struct ray *rays;
+	struct hit *hits;
+	size_t count;
+};
+
+static struct oracle oracle_make(const struct primitives *p, size_t count)
+{
+	struct err e = { 0 };
+	struct ray_source source;
+	int root = ROOT_BOX;
+	struct oracle o = { .count = count, .rays = malloc(count * sizeof *o.rays), .hits = malloc(count * sizeof *o.hits) };
+	o.list = build("list", &root, p);
+	assert_int_equal(ray_source_open(&source, &o.list, WORKLOAD_INVARIANT, 7, &e), 0);
+	for (size_t i = 0; i < count; i++) {
+		o.rays[i] = ray_source_draw(&source, i);
+		o.list.ops->shoot(&o.list, &o.rays[i], &o.hits[i]);
+	}
+	ray_source_close(&source);
+	return o;
+}
+
+static void oracle_free(struct oracle *o)
+{
+	accel_free(&o->list);
+	free(o->rays);
+	free(o->hits);
+}
+
+/* One by one, counted, many at once: the list's hits, bit for bit; any-hit queries hit when the list does. */
+static void compare_hits(const struct accel *a, const struct oracle *o, const char *what)
+{
+	struct hit *many = malloc(o->count * sizeof *many);
+	struct tally *tallies = malloc(o->count * sizeof *tallies);
+	a->ops->shoot_many(a, o->rays, o->count, many, tallies);
+	for (size_t i = 0; i < o->count; i++) {
+		struct hit h, counted;
+		struct tally n = { 0 };
+		struct ray any = o->rays[i];
+		any.any = true;
+		bool hit = a->ops->shoot(a, &o->rays[i], &h);
+		a->ops->shoot_counted(a, &o->rays[i], &counted, &n);
+		if (h.id != o->hits[i].id || h.t != o->hits[i].t || hit != (h.id != NO_PRIMITIVE) || counted.id != h.id || counted.t != h.t ||
+		    many[i].id != h.id || many[i].t != h.t)
+			fail_msg("%s: ray %zu hits %u at %.17g, %u counted, %u among many; the list %u at %.17g", what, i, h.id, h.t, counted.id,
+			         many[i].id, o->hits[i].id, o->hits[i].t);
+		if (memcmp(&n, &tallies[i], sizeof n) != 0)
+			fail_msg("%s: ray %zu is counted otherwise among many", what, i);
+		if (a->ops->shoot(a, &any, &h) != hit)
+			fail_msg("%s: ray %zu: any hit and nearest hit disagree", what, i);
+	}
+	free(many);
+	free(tallies);
+}
+
+struct scene_at {
+	const char *family;
+	int size;
+	bool tessellate;
+};
+static const struct scene_at scenes[] = { { "tetra", 3, false }, { "gears", 1, false }, { "balls", 1, false }, { "balls", 1, true },
+	{ "teapot", 2, false }, { "wall", 4, false } };
+enum { SCENES = sizeof scenes / sizeof *scenes };
+
+static void hits_are_those_of_the_list(void **state)
+{
+	(void)state;
+	for (int s = 0; s < SCENES; s++) {
+		struct primitives p = make_spd(scenes[s].family, scenes[s].size, scenes[s].tessellate);
+		struct oracle oracle = oracle_make(&p, 10000);
+		for (int v = 0; v < BUILDERS + TRAVERSALS + 1; v++) {
+			char what[120];
+			struct bvh_options o = options();
+			o.builder = v < BUILDERS ? v : v % 2 ? BVH_BINNED : BVH_MEDIAN;
+			o.traversal = v < BUILDERS || v == BUILDERS + TRAVERSALS ? BVH_ORDERED : v - BUILDERS;
+			o.max_objects = v % 3 + 1;
+			o.optimise = v == BUILDERS + TRAVERSALS ? 2 : 0;
+			struct accel a = build("bvh", &o, &p);
+			snprintf(what, sizeof what, "%s %d: %s, traversal %d", scenes[s].family, scenes[s].size, builders[o.builder], o.traversal);
+			if (o.traversal != BVH_CACHE)
+				compare_hits(&a, &oracle, what);
+			accel_free(&a);
+		}
+		oracle_free(&oracle);
+		primitives_free(&p);
+	}
+}
+
+/* Rays cut off where they end, so that no traversal can do less or more: the counts of the theory exactly. */
+static void nodes_up_to_the_hit_are_predicted_exactly(void **state)
+{
+	(void)state;
+	for (int s = 0; s < SCENES; s++) {
+		struct primitives p = make_spd(scenes[s].family, scenes[s].size, scenes[s].tessellate);
+		struct oracle oracle = oracle_make(&p, 40000);
+		for (int v = 0; v < BUILDERS; v++) {
+			struct err e = { 0 };
+			struct bvh_options o = options();
+			struct prediction predicted;
+			double sum = 0, square = 0;
+			o.builder = v;
+			struct accel a = build("bvh", &o, &p);
+			assert_int_equal(cost_predict(&predicted, &a, LAW_RAYS, 1.2, 1, &e), 0);
+			assert_near(predicted.volumes, (1 - predicted.surface_share) * predicted.sah +
+			            predicted.surface_share * (predicted.epo + predicted.dq), 1e-9 * predicted.volumes);
+			for (size_t i = 0; i < oracle.count; i++) {
+				struct ray r = oracle.rays[i];
+				struct hit h;
+				struct tally n = { 0 };
+				r.through = true;
+				r.t_max = oracle.hits[i].t;
+				a.ops->shoot_counted(&a, &r, &h, &n);
+				double cost = 1.2 * (double)n.inner_step + (double)n.tests;
+				sum += cost;
+				square += cost * cost;
+			}
+			double count = (double)oracle.count, mean = sum / count, se = sqrt((square / count - mean * mean) / count);
+			if (fabs(mean - predicted.volumes) > 4 * se)
+				fail_msg("%s %d, %s: %.5f, predicted %.5f, z %.2f", scenes[s].family, scenes[s].size, builders[v], mean,
+				         predicted.volumes, (mean - predicted.volumes) / se);
+			accel_free(&a);
+		}
+		oracle_free(&oracle);
+		primitives_free(&p);
+	}
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(hits_are_those_of_the_list),
+		cmocka_unit_test(nodes_up_to_the_hit_are_predicted_exactly),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
