@@ -40,8 +40,9 @@ sweep: all ## predicted and actual cost of every octree variant; SIZE=1,2,3 choo
 paper: all ## the experiments of "Cost prediction for ray shooting", with a report
 	@$(BUILD)/raycost run jobs/aronov2002.yaml
 
-bench: $(BUILD)/tests/bench ## time building and shooting, beside Embree where libembree-dev is installed
+bench: $(BUILD)/tests/bench $(BUILD)/tests/bench_bvh ## time building and shooting, beside Embree where libembree-dev is installed
 	@./$(BUILD)/tests/bench
+	@./$(BUILD)/tests/bench_bvh
 
 golden: export UPDATE_GOLDEN = 1
 golden: test ## rewrite tests/golden/, then read 'git diff'
@@ -59,9 +60,9 @@ $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS) -lcmocka
 
 EMBREE := $(if $(wildcard /usr/include/embree3/rtcore.h),yes)
-$(BUILD)/tests/bench: $(BUILD)/tests/bench.o $(OBJ)
+$(BUILD)/tests/bench $(BUILD)/tests/bench_bvh: %: %.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS) $(if $(EMBREE),-lembree3)
-$(BUILD)/tests/bench.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
+$(BUILD)/tests/bench.o $(BUILD)/tests/bench_bvh.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -73,7 +74,7 @@ $(BUILD)/src/main.o: $(BUILD)/version
 $(BUILD)/version: .FORCE
 	@mkdir -p $(@D); echo '$(VERSION)' | cmp -s - $@ || echo '$(VERSION)' > $@
 
--include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d
+-include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d $(BUILD)/tests/bench_bvh.d
 
 .PHONY: all deps test layers sweep paper bench golden clean help .FORCE
 .SECONDARY:

@@ -3,6 +3,7 @@
 #include "tests/check.h"
 
 #include "accel/bvh.h"
+#include "accel/bvh8.h"
 #include "accel/root.h"
 #include "base/par.h"
 #include "cost/cost.h"
@@ -120,6 +121,25 @@ static void hits_are_those_of_the_list(void **state)
 	}
 }
 
+static void any_instructions_find_what_the_list_finds(void **state)
+{
+	(void)state;
+	for (int s = 0; s < SCENES; s++) {
+		struct primitives p = make_spd(scenes[s].family, scenes[s].size, scenes[s].tessellate);
+		struct oracle oracle = oracle_make(&p, 20000);
+		for (int kernel = BVH8_BEST; kernel <= BVH8_PORTABLE; kernel++) {
+			char what[120];
+			struct bvh8_options o = { .kernel = kernel };
+			struct accel a = build("bvh8", &o, &p);
+			snprintf(what, sizeof what, "%s %d: bvh8, kernel %d", scenes[s].family, scenes[s].size, kernel);
+			compare_hits(&a, &oracle, what);
+			accel_free(&a);
+		}
+		oracle_free(&oracle);
+		primitives_free(&p);
+	}
+}
+
 /* Rays cut off where they end, so that no traversal can do less or more: the counts of the theory exactly. */
 static void nodes_up_to_the_hit_are_predicted_exactly(void **state)
 {
@@ -163,6 +183,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(hits_are_those_of_the_list),
+		cmocka_unit_test(any_instructions_find_what_the_list_finds),
 		cmocka_unit_test(nodes_up_to_the_hit_are_predicted_exactly),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-extern const struct accel_ops accel_list, accel_octree, accel_bvh;
+extern const struct accel_ops accel_list, accel_octree, accel_bvh, accel_bvh8;
 
-const struct accel_ops *const accel_all[] = { &accel_list, &accel_octree, &accel_bvh, NULL };
+const struct accel_ops *const accel_all[] = { &accel_list, &accel_octree, &accel_bvh, &accel_bvh8, NULL };
 
 const struct accel_ops *accel_find(const char *name)
 {
