@@ -44,6 +44,7 @@ static int build(struct accel *a, const void *opt, struct err *e)
 	a->impl = b;
 	if (!b)
 		return err_memory(e, "bvh8");
+	b->spheres = a->primitives->spheres > 0;
 	b->kernel = choose_kernel(o->kernel);
 	int status = bvh_draft_make(&draft, a, (enum bvh_builder)o->builder, &rules, e);
 	b->frame = draft.frame;

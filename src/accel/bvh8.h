@@ -52,6 +52,7 @@ struct bvh8 {
 	struct bvh_frame frame;
 	struct vec half; /* of the root's sides, in the frame */
 	double slack;    /* in the frame */
+	bool spheres;    /* there are some */
 };
 
 struct bvh8_options {

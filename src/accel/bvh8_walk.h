@@ -15,17 +15,18 @@
 #define END UINT32_MAX
 enum { STACK = (BVH8_WIDE - 1) * BVH_DEPTH + 1, CANDIDATES = 8 };
 
-/* A primitive that may end the ray, at 'least' or later. */
+/* A primitive that is hit, somewhere from 'least' to 'most'. */
 struct candidate {
 	uint32_t id;
-	float least;
+	float least, most;
 };
 
 /* A ray on its way. Times are in the frame and from 'base' on. limit: nothing beyond it can end the ray. */
 struct walker {
 	float per_d[3], o_per_d[3], o[3], d[3];
-	uint32_t near[3], far[3]; /* byte offsets of the planes in a node */
+	uint32_t near[3];         /* byte offsets of the planes in a node where the ray comes in */
 	float limit, sure, reach; /* sure: a hit before it counts */
+	uint32_t from;            /* the triangle it starts on, which it does not hit */
 	double base;
 	uint32_t candidates;
 	struct candidate candidate[CANDIDATES];
@@ -62,11 +63,13 @@ static inline bool enter(struct walker *w, const struct bvh8 *b, const struct ra
 }
 
 /* False when the ray visits nothing. */
-static inline bool start(struct walker *w, const struct bvh8 *b, const struct ray *r)
+static inline bool start(struct walker *w, const struct accel *a, const struct ray *r)
 {
+	const struct bvh8 *b = a->impl;
 	struct vec o = vec_scale(vec_sub(r->o, b->frame.center), b->frame.scale);
 	w->base = 0;
 	w->candidates = 0;
+	w->from = b->spheres ? NO_PRIMITIVE : r->from;
 	if ((fabs(o.x) > b->half.x || fabs(o.y) > b->half.y || fabs(o.z) > b->half.z) && !enter(w, b, r, &o))
 		return false;
 	w->reach = 1;
@@ -79,7 +82,6 @@ static inline bool start(struct walker *w, const struct bvh8 *b, const struct ra
 		w->reach += fabsf(w->o[i]);
 		uint32_t down = d < 0 || (d == 0 && signbit(d));
 		w->near[i] = (2 * (uint32_t)i + down) * sizeof(float[BVH8_WIDE]);
-		w->far[i] = (2 * (uint32_t)i + !down) * sizeof(float[BVH8_WIDE]);
 	}
 	w->limit = round_up(r->t_max * b->frame.scale - w->base);
 	w->sure = w->limit * (1 - 0x1p-20f);
@@ -100,10 +102,25 @@ static inline void settle(struct walker *w, const struct accel *a, const struct 
 	}
 }
 
-/* The triangles of a block that the ray may hit, and what is known of where. */
+/* The first hit where one candidate is left that is certain: to float precision. */
+static inline void settle_fast(struct walker *w, const struct accel *a, const struct ray *r, struct hit *h)
+{
+	const struct bvh8 *b = a->impl;
+	const struct candidate *last = &w->candidate[w->candidates - 1];
+	bool alone = h->id == NO_PRIMITIVE && w->candidates > 0 && last->most <= w->limit;
+	for (uint32_t i = 0; i + 1 < w->candidates; i++)
+		alone &= w->candidate[i].least > w->limit;
+	if (alone && last->most < w->sure)
+		*h = (struct hit){ (0.5 * ((double)last->least + last->most) + w->base) / b->frame.scale, last->id };
+	else
+		settle(w, a, r, h);
+}
+
+/* The triangles of a block that the ray may hit, or must. */
 struct lanes_hit {
-	uint32_t may, must; /* bit i: lane i */
-	quad least, most;   /* of t, in lanes of 'must' */
+	uint32_t may, must;   /* bit i: lane i */
+	quad t, det;          /* t is still to be divided by det */
+	float off, off_det;   /* how far off they are */
 };
 
 static inline uint32_t test_block(const struct bvh8_block *k, const struct walker *w, struct lanes_hit *hit)
@@ -133,50 +150,57 @@ static inline uint32_t test_block(const struct bvh8_block *k, const struct walke
 	v = (quad)((quad_int)v ^ sign);
 	t = (quad)((quad_int)t ^ sign);
 	float margin = k->margin * w->reach, off = margin * k->edge, off_det = k->margin * k->edge;
-	quad m = quad_of(margin), rest = det - u - v;
-	quad least = quad_min(quad_min(u, v), rest);
-	hit->may = quad_mask((least >= -m) & (t >= quad_of(-off)) & ~(t > quad_mul_add(det, quad_of(w->limit), quad_of(off + off_det * w->limit))));
-	if (hit->may == 0)
+	quad inside = quad_min(quad_min(u, v), det - u - v);
+	quad_int other = *(const quad_int *)(const void *)k->id != (int32_t)w->from;
+	hit->may = quad_mask(other & (inside >= quad_of(-margin)) & (t >= quad_of(-off)) &
+	                     ~(t > quad_mul_add(det, quad_of(w->limit), quad_of(off + off_det * w->limit))));
+	if (__builtin_expect(hit->may == 0, 1))
 		return 0;
-	hit->must = hit->may & quad_mask((least > m) & (det > quad_of(4 * off_det)) & (t > quad_of(2 * off)));
-	hit->least = (t - quad_of(off)) / (det + quad_of(off_det)) * quad_of(1 - 0x1p-20f);
-	hit->most = (t + quad_of(off)) / (det - quad_of(off_det)) * quad_of(1 + 0x1p-20f);
+	hit->must = hit->may & quad_mask((inside > quad_of(margin)) & (det > quad_of(16 * off_det)) & (t > quad_of(2 * off)));
+	hit->t = t;
+	hit->det = det;
+	hit->off = off;
+	hit->off_det = off_det;
 	return hit->may;
 }
 
-static inline void push_candidate(struct walker *w, const struct accel *a, const struct ray *r, struct hit *h, uint32_t id, float least)
+static inline void push_candidate(struct walker *w, const struct accel *a, const struct ray *r, struct hit *h, struct candidate c,
+                                  const bool exact)
 {
 	if (w->candidates == CANDIDATES)
 		settle(w, a, r, h);
-	w->candidate[w->candidates++] = (struct candidate){ id, least };
-	__builtin_prefetch(&a->primitives->all[id]);
-	__builtin_prefetch((const char *)(&a->primitives->all[id] + 1) - 1);
+	w->candidate[w->candidates++] = c;
+	w->limit = c.most < w->limit ? c.most : w->limit;
+	if (exact) {
+		__builtin_prefetch(&a->primitives->all[c.id]);
+		__builtin_prefetch((const char *)(&a->primitives->all[c.id] + 1) - 1);
+	}
 }
 
 /* What may be hit in a block; true when that ends the ray. */
 static inline bool take_hits(struct walker *w, const struct bvh8_block *k, const struct lanes_hit *hit, const struct accel *a,
-                             const struct ray *r, struct hit *h, const bool any)
+                             const struct ray *r, struct hit *h, const bool exact, const bool any)
 {
 	const struct bvh8 *b = a->impl;
-	bool spheres = !(k->margin < INFINITY);
-	for (uint32_t lane = 0; lane < k->count; lane++) {
-		uint32_t id = k->id[lane];
+	float t[BVH8_LANES], det[BVH8_LANES];
+	memcpy(t, &hit->t, sizeof t);
+	memcpy(det, &hit->det, sizeof det);
+	for (uint32_t may = hit->may & ((1u << k->count) - 1); may; may &= may - 1) {
+		uint32_t lane = (uint32_t)__builtin_ctz(may), id = k->id[lane];
+		float per_det = 1 / det[lane], at = t[lane] * per_det, off = (hit->off + hit->off_det * at) * per_det * 1.25f;
+		struct candidate c = { id, at - off, at + off };
 		bool must = hit->must >> lane & 1;
-		if (!(hit->may >> lane & 1) || (id == r->from && !spheres))
-			continue;
-		if (any && must && hit->most[lane] < w->sure) {
-			*h = (struct hit){ (hit->most[lane] + w->base) / b->frame.scale, id };
+		if (any && must && c.most < w->sure) {
+			*h = (struct hit){ (c.most + w->base) / b->frame.scale, id };
 			return true;
 		}
-		if (spheres || any) {
-			primitive_hit(&a->primitives->all[id], id, r, h);
-			if (h->id == id)
-				w->limit = limit_of(w, b, h);
-		} else {
-			push_candidate(w, a, r, h, id, must ? hit->least[lane] : 0);
-			if (must && hit->most[lane] < w->limit)
-				w->limit = hit->most[lane];
+		if (must && !any) {
+			push_candidate(w, a, r, h, c, exact);
+			continue;
 		}
+		primitive_hit(&a->primitives->all[id], id, r, h);
+		float limit = h->id == id ? limit_of(w, b, h) : INFINITY;
+		w->limit = limit < w->limit ? limit : w->limit;
 	}
 	return any && h->id != NO_PRIMITIVE;
 }
@@ -190,7 +214,7 @@ static inline bool visit_leaf(struct walker *w, uint32_t ref, const struct accel
 	for (; k < end; k++) {
 		struct lanes_hit hit;
 		COUNT(tests, k->count);
-		if (!r->through && __builtin_expect(test_block(k, w, &hit) != 0, 0) && take_hits(w, k, &hit, a, r, h, any))
+		if (!r->through && __builtin_expect(test_block(k, w, &hit) != 0, 0) && take_hits(w, k, &hit, a, r, h, count, any))
 			return true;
 	}
 	return false;
@@ -211,48 +235,87 @@ static inline void sort_pair(uint64_t *far, uint64_t *near)
 	*near = p > q ? q : p;
 }
 
-/* The children met, the nearest on top of the stack; returns the new top. */
-static inline uint64_t *visit_node(const struct walker *w, const struct bvh8_node *n, uint64_t *top)
+/* What a ray's box tests need again and again. */
+struct slabs {
+	WIDE per_d[3], o_per_d[3];
+	uintptr_t near[3];
+};
+
+static inline struct slabs slabs_of(const struct walker *w)
+{
+	struct slabs s;
+	for (int i = 0; i < 3; i++) {
+		s.per_d[i] = wide_spread(w->per_d[i]);
+		s.o_per_d[i] = wide_spread(w->o_per_d[i]);
+		s.near[i] = w->near[i];
+	}
+	return s;
+}
+
+/* The children met, as bits; t: where the ray comes in. */
+static inline uint32_t test_boxes(const struct slabs *s, const struct bvh8_node *n, float limit, WIDE *t)
 {
 	const char *at = (const char *)n->planes;
 	WIDE near[3], far[3];
 	for (int i = 0; i < 3; i++) {
-		WIDE per_d = wide_spread(w->per_d[i]), o_per_d = wide_spread(w->o_per_d[i]);
-		near[i] = wide_mul_sub(wide_load(at + w->near[i]), per_d, o_per_d);
-		far[i] = wide_mul_sub(wide_load(at + w->far[i]), per_d, o_per_d);
+		near[i] = wide_mul_sub(wide_load(at + s->near[i]), s->per_d[i], s->o_per_d[i]);
+		far[i] = wide_mul_sub(wide_load(at + (s->near[i] ^ sizeof(float[BVH8_WIDE]))), s->per_d[i], s->o_per_d[i]);
 	}
-	WIDE in = wide_max(wide_max(near[0], near[1]), wide_max(near[2], wide_spread(0)));
-	WIDE out = wide_min(wide_min(far[0], far[1]), wide_min(far[2], wide_spread(w->limit)));
-	uint32_t mask = wide_mask(in, out);
+	*t = wide_max(wide_max(near[0], near[1]), wide_max(near[2], wide_spread(0)));
+	return wide_mask(*t, wide_min(wide_min(far[0], far[1]), wide_min(far[2], wide_spread(limit))));
+}
+
+static inline uint32_t take_bit(uint32_t *mask)
+{
+	uint32_t bit = (uint32_t)__builtin_ctz(*mask);
+	*mask &= *mask - 1;
+	return bit;
+}
+
+/* The nearest of the children met is next; the others go onto the stack, nearer ones above. mask: not 0. */
+static inline uint32_t choose_nearest(const struct bvh8_node *n, uint32_t mask, const WIDE *in, uint64_t **stack)
+{
+	uint32_t t[BVH8_WIDE], i = take_bit(&mask);
+	uint64_t *top = *stack;
 	if (!mask)
-		return top;
-	float t[BVH8_WIDE];
-	memcpy(t, &in, sizeof t);
-	uint32_t first = (uint32_t)__builtin_ctz(mask);
-	top[0] = key_of(t[first], n->child[first]);
-	mask &= mask - 1;
-	if (!mask)
-		return top + 1;
-	uint32_t second = (uint32_t)__builtin_ctz(mask);
-	top[1] = key_of(t[second], n->child[second]);
-	mask &= mask - 1;
-	sort_pair(&top[0], &top[1]);
-	if (!mask)
-		return top + 2;
-	uint32_t third = (uint32_t)__builtin_ctz(mask);
-	top[2] = key_of(t[third], n->child[third]);
-	mask &= mask - 1;
-	sort_pair(&top[0], &top[2]);
-	sort_pair(&top[1], &top[2]);
-	top += 3;
-	for (int sorted = 3; mask; mask &= mask - 1, sorted++) {
-		uint32_t i = (uint32_t)__builtin_ctz(mask);
-		uint64_t key = key_of(t[i], n->child[i]), *place = top++;
-		for (int k = 0; k < sorted && place[-1] < key; k++, place--)
+		return n->child[i];
+	memcpy(t, in, sizeof t);
+#define KEY(i) ((uint64_t)t[i] << 32 | n->child[i])
+	uint64_t near = KEY(i), next;
+	i = take_bit(&mask);
+	next = KEY(i);
+	sort_pair(&next, &near);
+	top[0] = next;
+	if (mask) {
+		i = take_bit(&mask);
+		next = KEY(i);
+		sort_pair(&next, &near);
+		top[1] = next;
+		sort_pair(&top[0], &top[1]);
+		top++;
+	}
+	top++;
+	for (int sorted = 2; mask; sorted++) {
+		i = take_bit(&mask);
+		next = KEY(i);
+		sort_pair(&next, &near);
+		uint64_t *place = top++;
+		for (int k = 0; k < sorted && place[-1] < next; k++, place--)
 			*place = place[-1];
-		*place = key;
+		*place = next;
 	}
-	return top;
+#undef KEY
+	*stack = top;
+	return (uint32_t)near;
+}
+
+/* Where any hit will do, the order does not matter. */
+static inline uint32_t choose_any(const struct bvh8_node *n, uint32_t mask, uint64_t **stack)
+{
+	uint32_t i = take_bit(&mask);
+	while (mask)
+		*(*stack)++ = n->child[take_bit(&mask)];
+	return n->child[i];
 }
 
 static inline __attribute__((always_inline)) bool walk_as(const struct accel *a, const struct ray *r, struct hit *h, struct tally *tally,
@@ -263,25 +326,34 @@ static inline __attribute__((always_inline)) bool walk_as(const struct accel *a,
 	uint64_t stack[STACK], *top = stack;
 	uint32_t ref = b->root;
 	*h = hit_none(r);
-	if (!start(&w, b, r))
+	if (!start(&w, a, r))
 		return false;
-	*top++ = key_of(0, END);
+	const struct slabs slabs = slabs_of(&w);
+	*top++ = END;
 	while (ref != END) {
 		if (!(ref & 15)) {
 			const struct bvh8_node *n = bvh8_node(b, ref);
+			WIDE t;
+			uint32_t mask = test_boxes(&slabs, n, w.limit, &t);
 			COUNT(inner_step, 1);
 			COUNT(boxes, n->children);
-			top = visit_node(&w, n, top);
+			if (mask) {
+				ref = any ? choose_any(n, mask, &top) : choose_nearest(n, mask, &t, &top);
+				continue;
+			}
 		} else if (visit_leaf(&w, ref, a, r, h, tally, count, any)) {
 			break;
 		}
 		uint64_t most = key_of(w.limit, UINT32_MAX), key;
 		do
 			key = *--top;
-		while (key > most);
+		while (!any && key > most);
 		ref = (uint32_t)key;
 	}
-	settle(&w, a, r, h);
+	if (count)
+		settle(&w, a, r, h);
+	else if (!any)
+		settle_fast(&w, a, r, h);
 	COUNT(hits, h->id != NO_PRIMITIVE);
 	return h->id != NO_PRIMITIVE;
 }

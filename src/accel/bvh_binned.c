@@ -343,7 +343,7 @@ int bvh_build_binned(struct bvh_draft *d, const struct bvh_rules *rules)
 	struct range all = { d->refs, 0, n, 0, 1, 0, quad_box_empty() };
 	size_t chunk_count = (n + CHUNK - 1) / CHUNK;
 	struct chunk *chunks = aligned_alloc(64, chunk_count * ((sizeof *chunks + 63) & ~(size_t)63));
-	b.buffer[1] = aligned_alloc(64, ((size_t)n * sizeof *d->refs + 63) & ~(size_t)63);
+	b.buffer[1] = arena_pages((size_t)n * sizeof *d->refs);
 	b.tasks = malloc((size_t)n * sizeof *b.tasks / (TASK / 64) + 4096 * sizeof *b.tasks);
 	int status = chunks && b.buffer[1] && b.tasks ? 0 : -1;
 	if (status == 0) {

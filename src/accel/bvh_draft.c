@@ -39,7 +39,7 @@ static void fill_refs(void *ctx, size_t chunk)
 
 static void *allocate(struct bvh_draft *d, int place, size_t size)
 {
-	return d->memory[place] = aligned_alloc(64, (size + 63) & ~(size_t)63);
+	return d->memory[place] = arena_pages(size);
 }
 
 int bvh_draft_make(struct bvh_draft *d, const struct accel *a, enum bvh_builder b, const struct bvh_rules *rules, struct err *e)
