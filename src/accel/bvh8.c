@@ -48,7 +48,8 @@ static int build(struct accel *a, const void *opt, struct err *e)
 	b->kernel = choose_kernel(o->kernel);
 	int status = bvh_draft_make(&draft, a, (enum bvh_builder)o->builder, &rules, e);
 	b->frame = draft.frame;
-	b->half = vec_scale(vec_sub(a->root.hi, a->root.lo), b->frame.scale / 2);
+	for (int i = 0; i < 3; i++)
+		b->half[i] = nextafterf((float)((a->root.hi.a[i] - a->root.lo.a[i]) * b->frame.scale / 2), 1);
 	b->slack = a->slack * b->frame.scale;
 	if (status == 0 && o->optimise && bvh_optimise(&draft, (int)o->optimise) != 0)
 		status = err_memory(e, "bvh8");

@@ -50,9 +50,9 @@ struct bvh8 {
 	char *units;
 	uint32_t root; /* reference */
 	struct bvh_frame frame;
-	struct vec half; /* of the root's sides, in the frame */
-	double slack;    /* in the frame */
-	bool spheres;    /* there are some */
+	quad half;     /* of the root's sides, in the frame, rounded upwards; lane 3 unused */
+	double slack;  /* in the frame */
+	bool spheres;  /* there are some */
 };
 
 struct bvh8_options {

@@ -67,6 +67,19 @@ static uint32_t place_leaf(struct layout *l, const struct bvh_draft_node *n)
 	return unit << 4 | blocks;
 }
 
+/* The largest first: rays that any hit ends take children in this order, and large ones are more likely to end them. */
+static void sort_children(const struct bvh_draft *d, uint32_t *child, int count)
+{
+	for (int i = 1; i < count; i++) {
+		uint32_t moved = child[i];
+		float area = quad_box_half_area(bvh_node_box(&d->nodes[moved]));
+		int k = i;
+		for (; k > 0 && quad_box_half_area(bvh_node_box(&d->nodes[child[k - 1]])) < area; k--)
+			child[k] = child[k - 1];
+		child[k] = moved;
+	}
+}
+
 /* Place a node, then its leaves, then what is below its other children. */
 static uint32_t place(struct layout *l, uint32_t node, int depth)
 {
@@ -78,6 +91,7 @@ static uint32_t place(struct layout *l, uint32_t node, int depth)
 	if (is_leaf(&d->nodes[node]))
 		return place_leaf(l, &d->nodes[node]);
 	int count = gather(d, node, child);
+	sort_children(d, child, count);
 	l->units += NODE_UNITS;
 	n->children = (uint32_t)count;
 	for (int i = 0; i < BVH8_WIDE; i++)

@@ -23,14 +23,26 @@ struct candidate {
 
 /* A ray on its way. Times are in the frame and from 'base' on. limit: nothing beyond it can end the ray. */
 struct walker {
-	float per_d[3], o_per_d[3], o[3], d[3];
+	quad o, d, per_d, o_per_d;
 	uint32_t near[3];         /* byte offsets of the planes in a node where the ray comes in */
 	float limit, sure, reach; /* sure: a hit before it counts */
 	uint32_t from;            /* the triangle it starts on, which it does not hit */
-	double base;
 	uint32_t candidates;
+	double base;
 	struct candidate candidate[CANDIDATES];
 };
+
+typedef double quad_double __attribute__((vector_size(32)));
+
+static inline quad quad_of_vec(struct vec v)
+{
+	return __builtin_convertvector(((quad_double){ v.x, v.y, v.z, 0 }), quad);
+}
+
+static inline quad quad_abs(quad a)
+{
+	return (quad)((quad_int)a & INT32_MAX);
+}
 
 static inline float round_up(double x)
 {
@@ -48,7 +60,7 @@ static inline bool enter(struct walker *w, const struct bvh8 *b, const struct ra
 {
 	double in = 0, out = r->t_max * b->frame.scale;
 	for (int i = 0; i < 3; i++) {
-		double per_d = 1 / nonzero(r->d.a[i]), half = per_d < 0 ? -b->half.a[i] : b->half.a[i];
+		double per_d = 1 / nonzero(r->d.a[i]), half = per_d < 0 ? -b->half[i] : b->half[i];
 		double near = (-half - o->a[i]) * per_d, far = (half - o->a[i]) * per_d;
 		in = near > in ? near : in;
 		out = far < out ? far : out;
@@ -62,27 +74,30 @@ static inline bool enter(struct walker *w, const struct bvh8 *b, const struct ra
 	return true;
 }
 
-/* False when the ray visits nothing. */
-static inline bool start(struct walker *w, const struct accel *a, const struct ray *r)
+/* False when the ray visits nothing. Uncounted, one that misses the root from nearby may find that out among the root's children. */
+static inline __attribute__((always_inline)) bool start(struct walker *w, const struct accel *a, const struct ray *r, const bool count)
 {
 	const struct bvh8 *b = a->impl;
 	struct vec o = vec_scale(vec_sub(r->o, b->frame.center), b->frame.scale);
+	quad inside = count ? b->half : quad_of((float)BVH8_NEAR), d = quad_of_vec(r->d);
 	w->base = 0;
 	w->candidates = 0;
 	w->from = b->spheres ? NO_PRIMITIVE : r->from;
-	if ((fabs(o.x) > b->half.x || fabs(o.y) > b->half.y || fabs(o.z) > b->half.z) && !enter(w, b, r, &o))
-		return false;
-	w->reach = 1;
-	for (int i = 0; i < 3; i++) {
-		float d = (float)r->d.a[i];
-		w->o[i] = (float)o.a[i];
-		w->d[i] = d;
-		w->per_d[i] = 1 / (fabsf(d) < 1e-18f ? copysignf(1e-18f, d) : d);
-		w->o_per_d[i] = w->o[i] * w->per_d[i];
-		w->reach += fabsf(w->o[i]);
-		uint32_t down = d < 0 || (d == 0 && signbit(d));
-		w->near[i] = (2 * (uint32_t)i + down) * sizeof(float[BVH8_WIDE]);
+	w->o = quad_of_vec(o);
+	if (__builtin_expect(quad_mask(quad_abs(w->o) > inside) != 0, 0)) {
+		if (!enter(w, b, r, &o))
+			return false;
+		w->o = quad_of_vec(o);
 	}
+	quad_int sign = (quad_int)d & INT32_MIN, tiny = quad_abs(d) < quad_of(1e-18f);
+	uint32_t down = quad_mask(sign < 0);
+	w->d = d;
+	w->per_d = quad_of(1) / (quad)(((quad_int)d & ~tiny) | (((quad_int)quad_of(1e-18f) | sign) & tiny));
+	w->o_per_d = w->o * w->per_d;
+	for (uint32_t i = 0; i < 3; i++)
+		w->near[i] = (2 * i + (down >> i & 1)) * (uint32_t)sizeof(float[BVH8_WIDE]);
+	quad reach = quad_abs(w->o);
+	w->reach = 1 + reach[0] + reach[1] + reach[2];
 	w->limit = round_up(r->t_max * b->frame.scale - w->base);
 	w->sure = w->limit * (1 - 0x1p-20f);
 	return true;
@@ -326,7 +341,7 @@ static inline __attribute__((always_inline)) bool walk_as(const struct accel *a,
 	uint64_t stack[STACK], *top = stack;
 	uint32_t ref = b->root;
 	*h = hit_none(r);
-	if (!start(&w, a, r))
+	if (!start(&w, a, r, count))
 		return false;
 	const struct slabs slabs = slabs_of(&w);
 	*top++ = END;
