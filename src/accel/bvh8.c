@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Rays that are sorted together, and from what size of the structure on they are. */
+enum { SORTED_LEAST = 1024, SORTED_MOST = 1 << 20, SORTED_BYTES = 1 << 20 };
+
 static const char *const builder_words[] = { "binned", "sah", "median", "insertion", "spatial", NULL };
 static const char *const kernel_words[] = { "best", "avx512", "avx2", "portable", NULL };
 
@@ -73,9 +76,15 @@ static bool shoot_counted(const struct accel *a, const struct ray *r, struct hit
 
 static void shoot_many(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n)
 {
-	for (size_t i = 0; i < count; i++) {
-		n[i] = (struct tally){ 0 };
-		shoot_counted(a, &r[i], &h[i], &n[i]);
+	const struct bvh8 *b = a->impl;
+	for (size_t done = 0, piece; done < count; done += piece) {
+		piece = count - done < SORTED_MOST ? count - done : SORTED_MOST;
+		uint32_t *order = a->mem.held > SORTED_BYTES && piece >= SORTED_LEAST ? bvh8_order(a, r + done, piece) : NULL;
+		if (order)
+			b->kernel->shoot_in_order(a, r + done, order, piece, h + done, n + done);
+		else
+			b->kernel->shoot_all(a, r + done, piece, h + done, n + done);
+		free(order);
 	}
 }
 

@@ -41,7 +41,9 @@ struct bvh8_kernel {
 	const char *name;
 	bool (*shoot)(const struct accel *a, const struct ray *r, struct hit *h);
 	bool (*shoot_counted)(const struct accel *a, const struct ray *r, struct hit *h, struct tally *n);
-	void (*shoot_many)(const struct accel *a, const struct ray *r, const uint32_t *order, size_t count, struct hit *h, struct tally *n);
+	/* Counted, rays as they are or in the order given: the latter for rays that would wait for memory. */
+	void (*shoot_all)(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n);
+	void (*shoot_in_order)(const struct accel *a, const struct ray *r, const uint32_t *order, size_t count, struct hit *h, struct tally *n);
 };
 extern const struct bvh8_kernel bvh8_portable, bvh8_avx2, bvh8_avx512;
 
@@ -64,6 +66,9 @@ enum bvh8_kernel_kind { BVH8_BEST, BVH8_AVX512, BVH8_AVX2, BVH8_PORTABLE };
 
 /* Collapse the draft into b. 0, or -1 and *e: memory, too large. */
 int bvh8_lay_out(struct accel *a, struct bvh8 *b, const struct bvh_draft *d, const struct bvh_rules *rules, struct err *e);
+
+/* An order of rays in which neighbours meet much the same, as ray numbers; free() it. NULL: as they are. */
+uint32_t *bvh8_order(const struct accel *a, const struct ray *r, size_t count);
 
 static inline const struct bvh8_node *bvh8_node(const struct bvh8 *b, uint32_t ref)
 {

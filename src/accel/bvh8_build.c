@@ -149,26 +149,26 @@ static void fill_leaves(void *ctx, size_t chunk)
 	}
 }
 
-/* Leaves, blocks and inner nodes of the binary tree: bounds for what is laid out. */
-static void count_below(const struct bvh_draft *d, uint32_t node, size_t *leaves, size_t *blocks, size_t *inner)
+/* Leaves and units of what will be laid out. */
+static void count_below(const struct bvh_draft *d, uint32_t node, size_t *leaves, size_t *units)
 {
-	const struct bvh_draft_node *n = &d->nodes[node];
-	if (is_leaf(n)) {
+	uint32_t child[BVH8_WIDE];
+	if (is_leaf(&d->nodes[node])) {
 		++*leaves;
-		*blocks += bvh_blocks(n->count, BVH8_LANES);
+		*units += bvh_blocks(d->nodes[node].count, BVH8_LANES) * (size_t)BLOCK_UNITS;
 		return;
 	}
-	++*inner;
-	count_below(d, n->first, leaves, blocks, inner);
-	count_below(d, n->first + 1, leaves, blocks, inner);
+	int count = gather(d, node, child);
+	*units += NODE_UNITS;
+	for (int i = 0; i < count; i++)
+		count_below(d, child[i], leaves, units);
 }
 
 int bvh8_lay_out(struct accel *a, struct bvh8 *b, const struct bvh_draft *d, const struct bvh_rules *rules, struct err *e)
 {
 	struct layout l = { .accel = a, .bvh = b, .draft = d };
-	size_t leaves = 0, blocks = 0, inner = 0;
-	count_below(d, 0, &leaves, &blocks, &inner);
-	size_t units = blocks * BLOCK_UNITS + inner * NODE_UNITS;
+	size_t leaves = 0, units = 0;
+	count_below(d, 0, &leaves, &units);
 	if (units >= (size_t)1 << 28)
 		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "bvh8: more than 16 GiB");
 	b->units = NEW(&a->mem, char, units * BVH8_UNIT);

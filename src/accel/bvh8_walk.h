@@ -13,7 +13,7 @@
 
 /* References no node has: the end of the stack. */
 #define END UINT32_MAX
-enum { STACK = (BVH8_WIDE - 1) * BVH_DEPTH + 1, CANDIDATES = 8 };
+enum { TILE = 128, FLIGHTS = 16, STACK = (BVH8_WIDE - 1) * BVH_DEPTH + 1, CANDIDATES = 8 };
 
 /* A primitive that is hit, somewhere from 'least' to 'most'. */
 struct candidate {
@@ -333,38 +333,52 @@ static inline uint32_t choose_any(const struct bvh8_node *n, uint32_t mask, uint
 	return n->child[i];
 }
 
-static inline __attribute__((always_inline)) bool walk_as(const struct accel *a, const struct ray *r, struct hit *h, struct tally *tally,
-                                                          const bool count, const bool any)
+/* From the root on until nothing nearer than the limit is left; candidates remain to be settled. */
+static inline __attribute__((always_inline)) void traverse(struct walker *w, const struct accel *a, const struct ray *r, struct hit *h,
+                                                           struct tally *sum, const bool count, const bool any)
 {
 	const struct bvh8 *b = a->impl;
-	struct walker w;
+	const struct slabs slabs = slabs_of(w);
+	struct tally counted = { 0 }, *tally = &counted;
 	uint64_t stack[STACK], *top = stack;
 	uint32_t ref = b->root;
-	*h = hit_none(r);
-	if (!start(&w, a, r, count))
-		return false;
-	const struct slabs slabs = slabs_of(&w);
 	*top++ = END;
 	while (ref != END) {
 		if (!(ref & 15)) {
 			const struct bvh8_node *n = bvh8_node(b, ref);
 			WIDE t;
-			uint32_t mask = test_boxes(&slabs, n, w.limit, &t);
+			uint32_t mask = test_boxes(&slabs, n, w->limit, &t);
 			COUNT(inner_step, 1);
 			COUNT(boxes, n->children);
 			if (mask) {
 				ref = any ? choose_any(n, mask, &top) : choose_nearest(n, mask, &t, &top);
 				continue;
 			}
-		} else if (visit_leaf(&w, ref, a, r, h, tally, count, any)) {
+		} else if (visit_leaf(w, ref, a, r, h, tally, count, any)) {
 			break;
 		}
-		uint64_t most = key_of(w.limit, UINT32_MAX), key;
+		uint64_t most = key_of(w->limit, UINT32_MAX), key;
 		do
 			key = *--top;
 		while (!any && key > most);
 		ref = (uint32_t)key;
 	}
+	if (count) {
+		sum->leaves += counted.leaves;
+		sum->tests += counted.tests;
+		sum->inner_step += counted.inner_step;
+		sum->boxes += counted.boxes;
+	}
+}
+
+static inline __attribute__((always_inline)) bool walk_as(const struct accel *a, const struct ray *r, struct hit *h, struct tally *tally,
+                                                          const bool count, const bool any)
+{
+	struct walker w;
+	*h = hit_none(r);
+	if (!start(&w, a, r, count))
+		return false;
+	traverse(&w, a, r, h, tally, count, any);
 	if (count)
 		settle(&w, a, r, h);
 	else if (!any)
@@ -379,15 +393,168 @@ WALK walk(const struct accel *a, const struct ray *r, struct hit *h, struct tall
 }
 WALK_TWICE(walk)
 
-static void shoot_many(const struct accel *a, const struct ray *r, const uint32_t *order, size_t count, struct hit *h, struct tally *n)
+/* A ray in flight: one of several that take a step in turn, so that they wait for memory together. */
+struct flight {
+	struct walker walker;
+	struct slabs slabs;
+	uint64_t *top;
+	uint32_t ref, ray; /* ray: its number in the tile */
+	uint64_t stack[STACK];
+};
+
+/* What is asked for: rays, and where hits and tallies go. order: the numbers of the rays as they are shot. */
+struct batch {
+	const struct ray *rays;
+	const uint32_t *order;
+	size_t count;
+	struct hit *hits;
+	struct tally *tallies;
+};
+
+/* Rays that are fetched together, and those of them in flight. first: number in the batch of the first. */
+struct tile {
+	const struct batch *batch;
+	size_t first, count;
+	struct ray ray[TILE];
+	struct hit hit[TILE];
+	struct tally tally[TILE];
+	struct flight flight[FLIGHTS];
+};
+
+static inline void prefetch_ref(const struct bvh8 *b, uint32_t ref)
+{
+	const char *p = b->units + (size_t)(ref >> 4) * BVH8_UNIT;
+	if (ref == END)
+		return;
+	__builtin_prefetch(p);
+	__builtin_prefetch(p + 64);
+	__builtin_prefetch(p + 128);
+	__builtin_prefetch(p + 192);
+}
+
+/* One node, or one leaf. */
+static inline void step(struct flight *f, const struct accel *a, struct tile *t)
+{
+	const struct bvh8 *b = a->impl;
+	const struct ray *r = &t->ray[f->ray];
+	struct tally *tally = &t->tally[f->ray];
+	struct walker *w = &f->walker;
+	const bool count = true;
+	if (!(f->ref & 15)) {
+		const struct bvh8_node *n = bvh8_node(b, f->ref);
+		WIDE in;
+		uint32_t mask = test_boxes(&f->slabs, n, w->limit, &in);
+		COUNT(inner_step, 1);
+		COUNT(boxes, n->children);
+		if (mask) {
+			f->ref = r->any ? choose_any(n, mask, &f->top) : choose_nearest(n, mask, &in, &f->top);
+			prefetch_ref(b, f->ref);
+			return;
+		}
+	} else if (r->any ? visit_leaf(w, f->ref, a, r, &t->hit[f->ray], tally, true, true)
+	                  : visit_leaf(w, f->ref, a, r, &t->hit[f->ray], tally, true, false)) {
+		f->ref = END;
+		return;
+	}
+	uint64_t most = key_of(w->limit, UINT32_MAX), key;
+	do
+		key = *--f->top;
+	while (!r->any && key > most);
+	f->ref = (uint32_t)key;
+	prefetch_ref(b, f->ref);
+}
+
+/* Ask for where the ray's results go, and for the ray that has its place in the next tile. */
+static inline void prefetch_ray(const struct tile *t, size_t i)
+{
+	const struct batch *b = t->batch;
+	size_t here = b->order[t->first + i], next = t->first + TILE + i;
+	__builtin_prefetch(&b->hits[here], 1);
+	__builtin_prefetch(&b->tallies[here], 1);
+	if (next < b->count) {
+		const char *p = (const char *)&b->rays[b->order[next]];
+		__builtin_prefetch(p);
+		__builtin_prefetch(p + sizeof(struct ray) - 1);
+	}
+}
+
+/* Send the next rays of the tile on their way, from number 'next' on, until one does; returns the number after it. */
+static size_t launch(struct flight *f, const struct accel *a, struct tile *t, size_t next)
+{
+	const struct bvh8 *b = a->impl;
+	f->ref = END;
+	while (f->ref == END && next < t->count) {
+		prefetch_ray(t, next);
+		t->hit[next] = hit_none(&t->ray[next]);
+		t->tally[next] = (struct tally){ 0 };
+		if (start(&f->walker, a, &t->ray[next], true)) {
+			f->slabs = slabs_of(&f->walker);
+			f->ray = (uint32_t)next;
+			f->top = f->stack;
+			*f->top++ = END;
+			f->ref = b->root;
+		}
+		next++;
+	}
+	return next;
+}
+
+static void land(struct flight *f, const struct accel *a, struct tile *t)
+{
+	struct hit *h = &t->hit[f->ray];
+	settle(&f->walker, a, &t->ray[f->ray], h);
+	t->tally[f->ray].hits = h->id != NO_PRIMITIVE;
+}
+
+static void walk_tile(const struct accel *a, struct tile *t)
+{
+	size_t next = 0;
+	int flying = 0;
+	uint8_t fly[FLIGHTS];
+	for (uint8_t i = 0; i < FLIGHTS; i++) {
+		next = launch(&t->flight[i], a, t, next);
+		fly[flying] = i;
+		flying += t->flight[i].ref != END;
+	}
+	while (flying > 0)
+		for (int i = flying - 1; i >= 0; i--) {
+			struct flight *f = &t->flight[fly[i]];
+			step(f, a, t);
+			if (__builtin_expect(f->ref != END, 1))
+				continue;
+			land(f, a, t);
+			next = launch(f, a, t, next);
+			if (f->ref == END)
+				fly[i] = fly[--flying];
+		}
+}
+
+static void shoot_all(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n)
 {
 	for (size_t i = 0; i < count; i++) {
-		size_t k = order ? order[i] : i;
-		n[k] = (struct tally){ 0 };
-		shoot_counted(a, &r[k], &h[k], &n[k]);
+		n[i] = (struct tally){ 0 };
+		shoot_counted(a, &r[i], &h[i], &n[i]);
+	}
+}
+
+static void shoot_in_order(const struct accel *a, const struct ray *r, const uint32_t *order, size_t count, struct hit *h, struct tally *n)
+{
+	const struct batch batch = { r, order, count, h, n };
+	struct tile t;
+	t.batch = &batch;
+	for (t.first = 0; t.first < count; t.first += t.count) {
+		t.count = count - t.first < TILE ? count - t.first : TILE;
+		for (size_t i = 0; i < t.count; i++)
+			t.ray[i] = r[order[t.first + i]];
+		walk_tile(a, &t);
+		for (size_t i = 0; i < t.count; i++) {
+			size_t k = order[t.first + i];
+			h[k] = t.hit[i];
+			n[k] = t.tally[i];
+		}
 	}
 }
 
 #define NAME_OF(x) NAME_AS(x)
 #define NAME_AS(x) #x
-const struct bvh8_kernel BVH8_KERNEL = { NAME_OF(BVH8_KERNEL), shoot, shoot_counted, shoot_many };
+const struct bvh8_kernel BVH8_KERNEL = { NAME_OF(BVH8_KERNEL), shoot, shoot_counted, shoot_all, shoot_in_order };

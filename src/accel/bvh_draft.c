@@ -37,11 +37,6 @@ static void fill_refs(void *ctx, size_t chunk)
 	}
 }
 
-static void *allocate(struct bvh_draft *d, int place, size_t size)
-{
-	return d->memory[place] = arena_pages(size);
-}
-
 int bvh_draft_make(struct bvh_draft *d, const struct accel *a, enum bvh_builder b, const struct bvh_rules *rules, struct err *e)
 {
 	static int (*const build[])(struct bvh_draft *, const struct bvh_rules *) = {
@@ -49,8 +44,9 @@ int bvh_draft_make(struct bvh_draft *d, const struct accel *a, enum bvh_builder 
 	};
 	uint32_t n = a->primitives->count;
 	*d = (struct bvh_draft){ .primitives = a->primitives, .frame = frame_make(&a->root), .ref_count = n };
-	d->nodes = allocate(d, 0, 2 * (size_t)n * sizeof *d->nodes);
-	d->refs = allocate(d, 1, (size_t)n * sizeof *d->refs);
+	/* Most nodes remain unused, their pages untouched: none of the large ones. */
+	d->nodes = d->memory[0] = aligned_alloc(64, 2 * (size_t)n * sizeof *d->nodes);
+	d->refs = d->memory[1] = arena_pages((size_t)n * sizeof *d->refs);
 	if (!d->nodes || !d->refs)
 		return err_memory(e, "bvh");
 	par_for(rules->threads, (n + CHUNK - 1) / CHUNK, fill_refs, d);
