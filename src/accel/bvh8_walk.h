@@ -117,7 +117,7 @@ static inline void settle(struct walker *w, const struct accel *a, const struct 
 	}
 }
 
-/* The first hit where one candidate is left that is certain: to float precision. */
+/* The first hit where one candidate is left that is certain: its t to float precision, by what is known at most 2^-14 off. */
 static inline void settle_fast(struct walker *w, const struct accel *a, const struct ray *r, struct hit *h)
 {
 	const struct bvh8 *b = a->impl;
@@ -125,7 +125,7 @@ static inline void settle_fast(struct walker *w, const struct accel *a, const st
 	bool alone = h->id == NO_PRIMITIVE && w->candidates > 0 && last->most <= w->limit;
 	for (uint32_t i = 0; i + 1 < w->candidates; i++)
 		alone &= w->candidate[i].least > w->limit;
-	if (alone && last->most < w->sure)
+	if (alone && last->most < w->sure && last->most - last->least < 0x1p-13f)
 		*h = (struct hit){ (0.5 * ((double)last->least + last->most) + w->base) / b->frame.scale, last->id };
 	else
 		settle(w, a, r, h);
