@@ -28,7 +28,7 @@ static bool applies(const void *opt, const char *key)
 	if (strcmp(key, "bins") == 0)
 		return o->builder == BVH_BINNED || o->builder == BVH_SPATIAL;
 	if (strcmp(key, "max_objects") == 0 || strcmp(key, "step") == 0 || strcmp(key, "test") == 0)
-		return o->builder != BVH_INSERTION && (o->builder != BVH_MEDIAN || strcmp(key, "max_objects") == 0);
+		return o->builder != BVH_MEDIAN || o->optimise || strcmp(key, "max_objects") == 0;
 	return true;
 }
 
@@ -45,9 +45,7 @@ static int build(struct accel *a, const void *opt, struct err *e)
 	if (!b)
 		return err_memory(e, "bvh");
 	b->traversal = o->traversal;
-	int status = bvh_draft_make(&draft, a, (enum bvh_builder)o->builder, &rules, e);
-	if (status == 0 && o->optimise && bvh_optimise(&draft, (int)o->optimise) != 0)
-		status = err_memory(e, "bvh");
+	int status = bvh_draft_make(&draft, a, (enum bvh_builder)o->builder, (int)o->optimise, &rules, e);
 	if (status == 0)
 		status = bvh_lay_out(a, b, &draft, e);
 	bvh_draft_free(&draft);

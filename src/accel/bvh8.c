@@ -49,13 +49,11 @@ static int build(struct accel *a, const void *opt, struct err *e)
 		return err_memory(e, "bvh8");
 	b->spheres = a->primitives->spheres > 0;
 	b->kernel = choose_kernel(o->kernel);
-	int status = bvh_draft_make(&draft, a, (enum bvh_builder)o->builder, &rules, e);
+	int status = bvh_draft_make(&draft, a, (enum bvh_builder)o->builder, (int)o->optimise, &rules, e);
 	b->frame = draft.frame;
 	for (int i = 0; i < 3; i++)
 		b->half[i] = nextafterf((float)((a->root.hi.a[i] - a->root.lo.a[i]) * b->frame.scale / 2), 1);
 	b->slack = a->slack * b->frame.scale;
-	if (status == 0 && o->optimise && bvh_optimise(&draft, (int)o->optimise) != 0)
-		status = err_memory(e, "bvh8");
 	if (status == 0)
 		status = bvh8_lay_out(a, b, &draft, &rules, e);
 	bvh_draft_free(&draft);

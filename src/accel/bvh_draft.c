@@ -3,6 +3,7 @@
 #include "base/par.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { CHUNK = 1 << 15 };
 
@@ -37,7 +38,50 @@ static void fill_refs(void *ctx, size_t chunk)
 	}
 }
 
-int bvh_draft_make(struct bvh_draft *d, const struct accel *a, enum bvh_builder b, const struct bvh_rules *rules, struct err *e)
+/* What merging a subtree knows of it: refs[first .. first + count) of the new order. */
+struct merged {
+	uint32_t first, count;
+	float cost;
+};
+
+static struct merged merge(struct bvh_draft *d, const struct bvh_rules *rules, uint32_t node, union bvh_ref *refs, uint32_t *used)
+{
+	struct bvh_draft_node *n = &d->nodes[node];
+	float area = quad_box_half_area(bvh_node_box(n));
+	struct merged m = { *used, n->count, 0 };
+	if (n->count) {
+		memcpy(&refs[*used], &d->refs[n->first], n->count * sizeof *refs);
+		n->first = *used;
+		*used += n->count;
+	} else {
+		struct merged left = merge(d, rules, n->first, refs, used), right = merge(d, rules, n->first + 1, refs, used);
+		m.count = left.count + right.count;
+		m.cost = rules->step * area + left.cost + right.cost;
+	}
+	float leaf = rules->test * (float)bvh_blocks(m.count, rules->block) * area;
+	if (n->count || (m.count <= rules->most && leaf <= m.cost)) {
+		n->first = m.first;
+		n->count = m.count;
+		m.cost = leaf;
+	}
+	return m;
+}
+
+/* Subtrees that are cheaper as leaves become some. */
+static int merge_leaves(struct bvh_draft *d, const struct bvh_rules *rules)
+{
+	uint32_t used = 0;
+	union bvh_ref *refs = arena_pages((size_t)d->ref_count * sizeof *refs);
+	if (!refs)
+		return -1;
+	merge(d, rules, 0, refs, &used);
+	free(d->memory[1]);
+	d->refs = d->memory[1] = refs;
+	return 0;
+}
+
+int bvh_draft_make(struct bvh_draft *d, const struct accel *a, enum bvh_builder b, int optimise, const struct bvh_rules *rules,
+                   struct err *e)
 {
 	static int (*const build[])(struct bvh_draft *, const struct bvh_rules *) = {
 		bvh_build_binned, bvh_build_sweep, bvh_build_median, bvh_build_insertion, bvh_build_spatial
@@ -50,12 +94,17 @@ int bvh_draft_make(struct bvh_draft *d, const struct accel *a, enum bvh_builder 
 	if (!d->nodes || !d->refs)
 		return err_memory(e, "bvh");
 	par_for(rules->threads, (n + CHUNK - 1) / CHUNK, fill_refs, d);
-	return build[b](d, rules) == 0 ? 0 : err_memory(e, "bvh");
+	int status = build[b](d, rules);
+	if (status == 0 && optimise > 0)
+		status = bvh_optimise(d, optimise);
+	if (status == 0 && (optimise > 0 || b == BVH_INSERTION))
+		status = merge_leaves(d, rules);
+	return status == 0 ? 0 : err_memory(e, "bvh");
 }
 
 void bvh_draft_free(struct bvh_draft *d)
 {
-	for (int i = 0; i < 3; i++)
+	for (int i = 0; i < 2; i++)
 		free(d->memory[i]);
 	*d = (struct bvh_draft){ 0 };
 }

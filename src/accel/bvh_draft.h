@@ -35,7 +35,7 @@ struct bvh_draft {
 	union bvh_ref *refs;
 	uint32_t ref_count;
 	bool parts; /* refs may be parts: leaves are no larger than the refs, not the primitives, say */
-	void *memory[3]; /* owned */
+	void *memory[2]; /* owned: nodes and refs */
 };
 
 /* What a leaf and a step cost, for builders that weigh. A leaf of n costs test * blocks of n, an inner node costs step. */
@@ -51,8 +51,10 @@ enum { BVH_BINS = 64, BVH_DEPTH = 128 /* no leaf is deeper */ };
 
 enum bvh_builder { BVH_BINNED, BVH_SAH, BVH_MEDIAN, BVH_INSERTION, BVH_SPATIAL };
 
-/* Make the tree; a is only asked for its root and primitives. 0, or -1 and *e (memory). Free it in any case. */
-int bvh_draft_make(struct bvh_draft *d, const struct accel *a, enum bvh_builder b, const struct bvh_rules *rules, struct err *e);
+/* Make the tree; a is only asked for its root and primitives. optimise: rounds of reinsertion. 0, or -1 and *e (memory). Free it in
+ * any case. */
+int bvh_draft_make(struct bvh_draft *d, const struct accel *a, enum bvh_builder b, int optimise, const struct bvh_rules *rules,
+                   struct err *e);
 void bvh_draft_free(struct bvh_draft *d);
 
 /* The builders. d: refs filled, one a primitive, in order; room for 2 ref_count nodes. 0, or -1 when memory is out.
