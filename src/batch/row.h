@@ -20,7 +20,7 @@ struct row {
 	struct actual actual;
 	struct class_tally classes[RAY_CLASSES];
 	uint64_t class_counts[RAY_CLASSES][5]; /* rays, hits, leaves, tests, inner */
-	double ratio_replay, ratio_calibrated;
+	double ratio_replay, ratio_calibrated, ratio_volumes, lcv;
 	double actual_low, actual_high;
 	double ratio, ratio_exact, z_exact, z_leaves, z_tests, z_inner_step, z_inner_start;
 	double overhead_predicted, overhead_actual;

@@ -156,6 +156,10 @@ static void clear_unknown(struct prediction *p, enum law law)
 
 int cost_predict(struct prediction *p, const struct accel *a, enum law law, double alpha, double beta, struct err *e)
 {
+	if (law == LAW_NONE) {
+		*p = prediction_unknown();
+		return 0;
+	}
 	if (a->volumes)
 		return bvh_predict(p, a, law, alpha, beta, e);
 	struct solid solid = { 0 };

@@ -6,6 +6,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* Rays drawn, sorted and shot together; and the cells a side, as a power of two, of the grid they are sorted by. */
 enum { BLOCK = 65536, SORT_LEVELS = 5, SORT_CELLS = 1 << 3 * SORT_LEVELS };
@@ -14,6 +15,7 @@ enum { BLOCK = 65536, SORT_LEVELS = 5, SORT_CELLS = 1 << 3 * SORT_LEVELS };
 struct block {
 	struct tally sum, square;
 	uint64_t steps_tests;
+	double seconds;
 };
 
 struct run {
@@ -62,6 +64,11 @@ struct work {
  * still in the cache. The counts do not depend on the order. */
 static void draw_sorted(struct work *w, const struct ray_source *s, uint64_t first, size_t n)
 {
+	if (s->segments) {
+		for (size_t i = 0; i < n; i++)
+			w->sorted[i] = ray_source_draw(s, first + i);
+		return;
+	}
 	memset(w->first, 0, sizeof w->first);
 	for (size_t i = 0; i < n; i++) {
 		w->drawn[i] = ray_source_draw(s, first + i);
@@ -72,6 +79,13 @@ static void draw_sorted(struct work *w, const struct ray_source *s, uint64_t fir
 		w->first[c + 1] += w->first[c];
 	for (size_t i = 0; i < n; i++)
 		w->sorted[w->first[w->cell[i]]++] = w->drawn[i];
+}
+
+static double thread_seconds(void)
+{
+	struct timespec t;
+	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 static void shoot_block(void *ctx, size_t i)
@@ -89,7 +103,9 @@ static void shoot_block(void *ctx, size_t i)
 	uint64_t first = (uint64_t)i * BLOCK;
 	size_t n = first + BLOCK < run->count ? BLOCK : (size_t)(run->count - first);
 	draw_sorted(w, &run->source, first, n);
+	double start = thread_seconds();
 	a->ops->shoot_many(a, w->sorted, n, w->hit, w->tally);
+	b.seconds = thread_seconds() - start;
 	for (size_t k = 0; k < n; k++)
 		add_ray(&b, a, &w->tally[k]);
 	run->blocks[i] = b;
@@ -122,6 +138,7 @@ static void sum_up(struct actual *out, const struct run *run, size_t blocks, dou
 		hits += (double)b->square.hits;
 		boxes += (double)b->square.boxes;
 		both += (double)b->steps_tests;
+		out->walk_seconds += b->seconds;
 	}
 	out->leaves = mean_of((double)sum->leaves, leaves, n);
 	out->tests = mean_of((double)sum->tests, tests, n);
