@@ -40,6 +40,9 @@ sweep: all ## predicted and actual cost of every octree variant; SIZE=1,2,3 choo
 paper: all ## the experiments of "Cost prediction for ray shooting", with a report
 	@$(BUILD)/raycost run jobs/aronov2002.yaml
 
+smits: all ## the experiments of "Efficiency issues for ray tracing", with a report
+	@$(BUILD)/raycost run jobs/smits1999.yaml
+
 bench: $(BUILD)/tests/bench $(BUILD)/tests/bench_bvh ## time building and shooting, beside Embree where libembree-dev is installed
 	@./$(BUILD)/tests/bench
 	@./$(BUILD)/tests/bench_bvh
@@ -76,6 +79,6 @@ $(BUILD)/version: .FORCE
 
 -include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d $(BUILD)/tests/bench_bvh.d
 
-.PHONY: all deps test layers sweep paper bench golden clean help .FORCE
+.PHONY: all deps test layers sweep paper smits bench golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:

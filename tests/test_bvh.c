@@ -181,11 +181,145 @@ static void nodes_up_to_the_hit_are_predicted_exactly(void **state)
 	}
 }
 
+/* Nothing stops lines, so that SAH is their cost exactly. */
+static void lines_cost_their_areas(void **state)
+{
+	(void)state;
+	struct primitives p = make_spd("gears", 1, false);
+	for (int v = 0; v < BUILDERS; v++) {
+		struct err e = { 0 };
+		struct bvh_options o = options();
+		struct prediction predicted;
+		struct actual actual;
+		o.builder = v;
+		struct accel a = build("bvh", &o, &p);
+		assert_int_equal(cost_predict(&predicted, &a, LAW_LINES, 1.2, 1, &e), 0);
+		assert_int_equal(shoot_rays(&actual, &a, WORKLOAD_LINES, 100000, 3, 1.2, 1, par_processors(), NULL, &e), 0);
+		assert_near(predicted.predicted_exact, predicted.sah, 1e-12 * predicted.sah);
+		if (fabs(actual.cost.mean - predicted.sah) > 4 * actual.cost.se)
+			fail_msg("%s: %.5f, predicted %.5f, se %.5f", builders[v], actual.cost.mean, predicted.sah, actual.cost.se);
+		accel_free(&a);
+	}
+	primitives_free(&p);
+}
+
+struct digest {
+	uint64_t cells, sum;
+	double areas;
+};
+
+static int digest_cell(void *ctx, const struct cell *c)
+{
+	struct digest *d = ctx;
+	d->cells++;
+	d->areas += c->area * (double)(1 + d->cells % 7);
+	for (uint32_t i = 0; i < c->count; i++)
+		d->sum = d->sum * 31 + c->ids[i];
+	return 0;
+}
+
+/* More primitives than one thread takes on: the work is divided, the tree is the same. */
+static void threads_do_not_change_the_tree(void **state)
+{
+	(void)state;
+	static const char *const names[] = { "bvh", "bvh8" };
+	struct primitives p = make_spd("teapot", 39, true);
+	for (int k = 0; k < 2; k++) {
+		struct digest first = { 0 };
+		for (int threads = 1; threads <= 7; threads += 3) {
+			_Alignas(16) unsigned char o[ACCEL_OPT_MOST];
+			struct err e = { 0 };
+			struct digest d = { 0 };
+			struct accel a;
+			key_defaults(accel_find(names[k])->keys, o);
+			assert_int_equal(accel_build_on(&a, accel_find(names[k]), o, &p, threads, &e), 0);
+			a.ops->cells(&a, digest_cell, &d);
+			if (threads == 1)
+				first = d;
+			assert_memory_equal(&d, &first, sizeof d);
+			accel_free(&a);
+		}
+	}
+	primitives_free(&p);
+}
+
+/* Enough rays for bvh8 to sort them and to have several in flight; some of them for any hit, some through everything. */
+static void order_does_not_matter(void **state)
+{
+	(void)state;
+	enum { COUNT = 20000 };
+	struct primitives p = make_spd("teapot", 20, true);
+	struct bvh8_options o = { 0 };
+	struct accel a = build("bvh8", &o, &p);
+	struct err e = { 0 };
+	struct ray_source source;
+	struct ray *rays = malloc(COUNT * sizeof *rays);
+	struct hit *hits = malloc(COUNT * sizeof *hits);
+	struct tally *tallies = malloc(COUNT * sizeof *tallies);
+	assert_int_equal(ray_source_open(&source, &a, WORKLOAD_INVARIANT, 11, &e), 0);
+	for (size_t i = 0; i < COUNT; i++) {
+		rays[i] = ray_source_draw(&source, i);
+		rays[i].any = i % 3 == 1;
+		rays[i].through = i % 5 == 2;
+	}
+	uint32_t *order = bvh8_order(&a, rays, COUNT);
+	assert_non_null(order);
+	free(order);
+	a.ops->shoot_many(&a, rays, COUNT, hits, tallies);
+	for (size_t i = 0; i < COUNT; i++) {
+		struct hit h;
+		struct tally n = { 0 };
+		a.ops->shoot_counted(&a, &rays[i], &h, &n);
+		if (h.id != hits[i].id || h.t != hits[i].t || memcmp(&n, &tallies[i], sizeof n) != 0)
+			fail_msg("ray %zu: %u at %.17g alone, %u at %.17g among many", i, h.id, h.t, hits[i].id, hits[i].t);
+	}
+	ray_source_close(&source);
+	free(rays);
+	free(hits);
+	free(tallies);
+	accel_free(&a);
+	primitives_free(&p);
+}
+
+/* Smits' variants test the same boxes and primitives in the same order, until rays may end at any hit: then fewer; and a ray shot
+ * again right after itself costs one test where it hits. */
+static void the_ladder_saves_work(void **state)
+{
+	(void)state;
+	enum { SEGMENTS = 4000 };
+	struct primitives p = make_spd("lab", SPD_DEFAULT_SIZE, false);
+	struct actual actual[BVH_CACHE + 1], twice;
+	for (int t = BVH_POINT; t <= BVH_CACHE; t++) {
+		struct err e = { 0 };
+		struct bvh_options o = options();
+		o.builder = BVH_MEDIAN;
+		o.max_objects = 1;
+		o.traversal = t;
+		struct accel a = build("bvh", &o, &p);
+		assert_int_equal(shoot_rays(&actual[t], &a, WORKLOAD_SEGMENTS, SEGMENTS, 5, 1, 1, 1, NULL, &e), 0);
+		if (t == BVH_CACHE)
+			assert_int_equal(shoot_rays(&twice, &a, WORKLOAD_SEGMENTS_TWICE, SEGMENTS, 5, 1, 1, 1, NULL, &e), 0);
+		assert_int_equal(actual[t].sum.hits, actual[BVH_POINT].sum.hits);
+		accel_free(&a);
+	}
+	for (int t = BVH_SLABS; t <= BVH_ARRAY; t++)
+		assert_memory_equal(&actual[t].sum, &actual[BVH_SLABS].sum, sizeof actual[t].sum);
+	assert_near((double)actual[BVH_POINT].sum.boxes, (double)actual[BVH_SLABS].sum.boxes, 1e-3 * (double)actual[BVH_SLABS].sum.boxes);
+	assert_true(actual[BVH_ANY].sum.boxes < actual[BVH_ARRAY].sum.boxes);
+	assert_true(actual[BVH_ANY].sum.tests < actual[BVH_ARRAY].sum.tests);
+	assert_true(twice.sum.boxes < actual[BVH_CACHE].sum.boxes);
+	primitives_free(&p);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(hits_are_those_of_the_list),
 		cmocka_unit_test(any_instructions_find_what_the_list_finds),
+		cmocka_unit_test(lines_cost_their_areas),
+		cmocka_unit_test(threads_do_not_change_the_tree),
+		cmocka_unit_test(order_does_not_matter),
+		cmocka_unit_test(the_ladder_saves_work),
 		cmocka_unit_test(nodes_up_to_the_hit_are_predicted_exactly),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

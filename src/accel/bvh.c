@@ -82,7 +82,7 @@ WALK walk(const struct accel *a, const struct ray *r, struct hit *h, struct tall
 {
 	const struct bvh *b = a->impl;
 	const struct bvh_ray packed = bvh_ray(r);
-	struct later later[BVH_DEPTH], *top = later;
+	struct later later[BVH_DEEPEST], *top = later;
 	uint32_t node = 0;
 	double t[2];
 	*h = hit_none(r);

@@ -64,7 +64,7 @@ static inline bool bvh_meets(const struct box *b, const struct bvh_ray *r, doubl
 	return in <= out + r->slack;
 }
 
-/* Lay the draft out: nodes and ids into a's memory, a's counts. 0, or -1 and *e: memory, deeper than BVH_DEPTH. */
+/* Lay the draft out: nodes and ids into a's memory, a's counts. 0, or -1 and *e: memory, deeper than BVH_DEEPEST. */
 int bvh_lay_out(struct accel *a, struct bvh *b, const struct bvh_draft *d, struct err *e);
 
 /* Smits' traversals; one of each is compiled for counting. */

@@ -17,7 +17,7 @@
 #define quad_mask(m) ((uint32_t)_mm_movemask_ps((__m128)(m)))
 
 #define BVH8_KERNEL bvh8_avx512
-#include "accel/bvh8_walk.h"
+#include "accel/bvh8_walk.inc"
 #else
 typedef int bvh8_avx512_is_empty;
 #endif

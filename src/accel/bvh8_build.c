@@ -178,6 +178,10 @@ int bvh8_lay_out(struct accel *a, struct bvh8 *b, const struct bvh_draft *d, con
 		return err_memory(e, "bvh8");
 	}
 	b->root = place(&l, 0, 0);
+	if (a->depth > BVH_DEPTH) {
+		free(l.leaves);
+		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "bvh8: the tree is deeper than %d; another builder makes a shallower one", (int)BVH_DEPTH);
+	}
 	par_for(rules->threads, (leaves + CHUNK - 1) / CHUNK, fill_leaves, &l);
 	a->leaves = leaves;
 	a->references = d->ref_count;

@@ -60,4 +60,4 @@ static inline quad quad_mul_sub(quad a, quad b, quad c)
 }
 
 #define BVH8_KERNEL bvh8_portable
-#include "accel/bvh8_walk.h"
+#include "accel/bvh8_walk.inc"

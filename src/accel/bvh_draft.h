@@ -47,7 +47,9 @@ struct bvh_rules {
 	int threads;
 };
 
-enum { BVH_BINS = 64, BVH_DEPTH = 128 /* no leaf is deeper */ };
+/* No leaf is deeper than BVH_DEPTH where a builder halves or weighs; insertion and reinsertion may go further, but no walk goes deeper
+ * than BVH_DEEPEST. */
+enum { BVH_BINS = 64, BVH_DEPTH = 128, BVH_DEEPEST = 512 };
 
 enum bvh_builder { BVH_BINNED, BVH_SAH, BVH_MEDIAN, BVH_INSERTION, BVH_SPATIAL };
 

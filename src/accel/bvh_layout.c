@@ -14,7 +14,7 @@ static uint32_t count_nodes(const struct bvh_draft *d, uint32_t node, int depth,
 {
 	const struct bvh_draft_node *n = &d->nodes[node];
 	*deepest = depth > *deepest ? depth : *deepest;
-	if (n->count || depth > BVH_DEPTH)
+	if (n->count || depth > BVH_DEEPEST)
 		return 1;
 	return 1 + count_nodes(d, n->first, depth + 1, deepest) + count_nodes(d, n->first + 1, depth + 1, deepest);
 }
@@ -66,9 +66,9 @@ int bvh_lay_out(struct accel *a, struct bvh *b, const struct bvh_draft *d, struc
 {
 	struct layout l = { a, b, d, 0, 0 };
 	uint32_t nodes = count_nodes(d, 0, 0, &a->depth);
-	if (a->depth > BVH_DEPTH)
+	if (a->depth > BVH_DEEPEST)
 		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "bvh: the tree is deeper than %d; another builder makes a shallower one",
-		              (int)BVH_DEPTH);
+		              (int)BVH_DEEPEST);
 	b->nodes = NEW(&a->mem, struct bvh_node, nodes);
 	b->ids = NEW(&a->mem, uint32_t, d->ref_count);
 	if (!b->nodes || !b->ids)
