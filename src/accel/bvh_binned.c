@@ -54,15 +54,39 @@ static void bins_clear(struct bins *b, int bins)
 		}
 }
 
-static void bins_add(struct bins *b, const union bvh_ref *refs, uint32_t count, quad base, quad scale)
+static inline void bins_add_one(struct bins *b, const union bvh_ref *r, quad base, quad scale)
 {
-	for (uint32_t i = 0; i < count; i++) {
-		quad_int at = bin_of(&refs[i], base, scale);
-		for (int axis = 0; axis < 3; axis++) {
-			quad_box_join(&b->box[axis][at[axis]], refs[i].box);
-			b->count[axis][at[axis]]++;
-		}
+	quad_int at = bin_of(r, base, scale);
+	for (int axis = 0; axis < 3; axis++) {
+		quad_box_join(&b->box[axis][at[axis]], r->box);
+		b->count[axis][at[axis]]++;
 	}
+}
+
+static void bins_merge(struct bins *b, const struct bins *c, int bins)
+{
+	for (int axis = 0; axis < 3; axis++)
+		for (int k = 0; k < bins; k++) {
+			quad_box_join(&b->box[axis][k], c->box[axis][k]);
+			b->count[axis][k] += c->count[axis][k];
+		}
+}
+
+/* Neighbours in the list mostly share their bins: every other goes into bins of its own, so that none waits for the one before. */
+static void bins_add(struct bins *b, const union bvh_ref *refs, uint32_t count, quad base, quad scale, int bins)
+{
+	struct bins odd;
+	uint32_t i = 0;
+	if (count >= 128) {
+		bins_clear(&odd, bins);
+		for (; i + 2 <= count; i += 2) {
+			bins_add_one(b, &refs[i], base, scale);
+			bins_add_one(&odd, &refs[i + 1], base, scale);
+		}
+		bins_merge(b, &odd, bins);
+	}
+	for (; i < count; i++)
+		bins_add_one(b, &refs[i], base, scale);
 }
 
 static struct quad_box bound_centers(const union bvh_ref *refs, uint32_t count)
@@ -201,7 +225,7 @@ static void build_range(struct builder *b, struct range r, struct bins *bins, ui
 			int n = count_bins(rules, r.count);
 			place_bins(&s, &centers, n);
 			bins_clear(bins, n);
-			bins_add(bins, refs, r.count, s.base, s.scale);
+			bins_add(bins, refs, r.count, s.base, s.scale, n);
 			find_plane(&s, bins, n, rules);
 		}
 		if (is_leaf(&r, &s, rules)) {
@@ -260,7 +284,8 @@ static void pass_bins(void *ctx, size_t i)
 {
 	struct pass *p = ctx;
 	bins_clear(&p->chunks[i].bins, p->bins);
-	bins_add(&p->chunks[i].bins, &p->range->refs[p->range->first + i * CHUNK], chunk_size(p, i), p->split->base, p->split->scale);
+	bins_add(&p->chunks[i].bins, &p->range->refs[p->range->first + i * CHUNK], chunk_size(p, i), p->split->base,
+	         p->split->scale, p->bins);
 }
 
 static void pass_divide(void *ctx, size_t i)
@@ -287,11 +312,7 @@ static void split_large(struct builder *b, const struct range *r, struct split *
 	struct bins all;
 	bins_clear(&all, n);
 	for (size_t i = 0; i < chunks; i++)
-		for (int axis = 0; axis < 3; axis++)
-			for (int k = 0; k < n; k++) {
-				quad_box_join(&all.box[axis][k], p->chunks[i].bins.box[axis][k]);
-				all.count[axis][k] += p->chunks[i].bins.count[axis][k];
-			}
+		bins_merge(&all, &p->chunks[i].bins, n);
 	find_plane(s, &all, n, b->rules);
 	if (s->cost == INFINITY)
 		return;

@@ -14,11 +14,17 @@ static struct bvh_frame frame_make(const struct box *root)
 	return (struct bvh_frame){ vec_scale(vec_add(root->lo, root->hi), 0.5), ldexp(1, -exponent) };
 }
 
-/* The float next to x on the side of 'toward', unless x is one itself. */
-static float round_to(double x, float toward)
+/* A float not above x, and one not below: x itself where it is one. Coordinates are at most 1. */
+static inline float round_down(double x)
 {
 	float f = (float)x;
-	return (toward < 0 ? f > x : f < x) ? nextafterf(f, toward) : f;
+	return f > x ? f - 0x1p-24f : f;
+}
+
+static inline float round_up(double x)
+{
+	float f = (float)x;
+	return f < x ? f + 0x1p-24f : f;
 }
 
 static void fill_refs(void *ctx, size_t chunk)
@@ -32,8 +38,8 @@ static void fill_refs(void *ctx, size_t chunk)
 		r->id = i;
 		r->unused = 0;
 		for (int k = 0; k < 3; k++) {
-			r->lo[k] = round_to((b.lo.a[k] - f->center.a[k]) * f->scale, -INFINITY);
-			r->hi[k] = round_to((b.hi.a[k] - f->center.a[k]) * f->scale, INFINITY);
+			r->lo[k] = round_down((b.lo.a[k] - f->center.a[k]) * f->scale);
+			r->hi[k] = round_up((b.hi.a[k] - f->center.a[k]) * f->scale);
 		}
 	}
 }

@@ -89,10 +89,10 @@ static inline void bvh_node_set(struct bvh_draft_node *n, struct quad_box b, uin
 	*n = (struct bvh_draft_node){ { b.lo[0], b.lo[1], b.lo[2] }, first, { b.hi[0], b.hi[1], b.hi[2] }, count };
 }
 
-/* Twice the centroid of a ref. */
+/* Twice the centroid of a ref; lane 3 is 0, for arithmetic on an id would be slow: most are no normal floats. */
 static inline quad bvh_ref_center(const union bvh_ref *r)
 {
-	return r->box.lo + r->box.hi;
+	return (quad)((quad_int)r->box.lo & (quad_int){ -1, -1, -1, 0 }) + (quad)((quad_int)r->box.hi & (quad_int){ -1, -1, -1, 0 });
 }
 
 #endif
