@@ -19,6 +19,11 @@ enum { BVH8_WIDE = 8, BVH8_LANES = 4, BVH8_UNIT = 64, BVH8_MOST_BLOCKS = 15 };
 #define BVH8_NEAR 1.0
 #define BVH8_GROWTH 0x1p-20f
 
+/* With S the ray's reach, which bounds |origin - corner|, and E a block's longest edge: rounding the inputs and every operation puts
+ * the products u, v and det of the Moeller-Trumbore test off by less than 17 roundings of S E, its t by less than 17 of S E^2. The
+ * test allows 32. */
+#define BVH8_MARGIN 0x1p-19f
+
 /* planes[2 axis + upper]; a child that is not there is a box no ray meets. */
 struct bvh8_node {
 	_Alignas(BVH8_UNIT) float planes[6][BVH8_WIDE];

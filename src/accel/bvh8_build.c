@@ -134,7 +134,7 @@ static void fill_block(const struct layout *l, struct bvh8_block *b, const union
 		longest = fmax(longest, fill_lane(b, (int)i, &l->draft->primitives->all[id], &l->draft->frame));
 	}
 	b->edge = (float)sqrt(longest) * (1 + 0x1p-20f);
-	b->margin = b->edge * 0x1p-17f;
+	b->margin = b->edge * BVH8_MARGIN;
 }
 
 static void fill_leaves(void *ctx, size_t chunk)
