@@ -65,7 +65,7 @@ struct accel_ops {
 	/* Every cell in a fixed preorder; returns what fn stopped with, or 0. */
 	int (*cells)(const struct accel *a, cell_fn *fn, void *ctx);
 	/* Fill *h with the first hit (hit_better order) and return whether there is one. The counted form adds to *n. What shoot finds is
-	 * the same, but t may be off by 1e-4 of the root's diagonal (mostly by less than 1e-6) where a structure is built
+	 * the same, but t may be off by 5e-4 of the root's diagonal (mostly by less than 1e-6) where a structure is built
 	 * for speed. */
 	bool (*shoot)(const struct accel *a, const struct ray *r, struct hit *h);
 	bool (*shoot_counted)(const struct accel *a, const struct ray *r, struct hit *h, struct tally *n);

@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rays that are sorted together, and from what size of the structure on they are. */
-enum { SORTED_LEAST = 1024, SORTED_MOST = 1 << 20, SORTED_BYTES = 1 << 20 };
+/* Sorting pays where rays wait for memory: many rays, SORTED_MOST at a time, through a structure of some size, in which the first ones
+ * (PILOTS) make SORTED_STEPS steps or more. */
+enum { PILOTS = 256, SORTED_LEAST = 4096, SORTED_MOST = 1 << 20, SORTED_BYTES = 4 << 20, SORTED_STEPS = 4 };
 
 static const char *const builder_words[] = { "binned", "sah", "median", "insertion", "spatial", NULL };
 static const char *const kernel_words[] = { "best", "avx512", "avx2", "portable", NULL };
@@ -75,9 +76,15 @@ static bool shoot_counted(const struct accel *a, const struct ray *r, struct hit
 static void shoot_many(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n)
 {
 	const struct bvh8 *b = a->impl;
-	for (size_t done = 0, piece; done < count; done += piece) {
+	size_t pilots = count < PILOTS ? count : PILOTS;
+	uint64_t steps = 0;
+	b->kernel->shoot_all(a, r, pilots, h, n);
+	for (size_t i = 0; i < pilots; i++)
+		steps += n[i].inner_step + n[i].leaves;
+	bool sorted = a->mem.held > SORTED_BYTES && steps >= SORTED_STEPS * pilots;
+	for (size_t done = pilots, piece; done < count; done += piece) {
 		piece = count - done < SORTED_MOST ? count - done : SORTED_MOST;
-		uint32_t *order = a->mem.held > SORTED_BYTES && piece >= SORTED_LEAST ? bvh8_order(a, r + done, piece) : NULL;
+		uint32_t *order = sorted && piece >= SORTED_LEAST ? bvh8_order(a, r + done, piece) : NULL;
 		if (order)
 			b->kernel->shoot_in_order(a, r + done, order, piece, h + done, n + done);
 		else
