@@ -20,7 +20,7 @@ static const char help[] =
 	"  --ray_depth N           of the tree of rays; a primary ray has 1 (5)\n"
 	"  --shadows facing        shadow rays only to lights that the surface faces, not to all\n"
 	"  --weight X              rays that could add less than this share to a pixel are not shot (0)\n"
-	"  --structure NAME        octree or list; its options follow, e.g. --max_objects 5 --root box\n"
+	"  --structure NAME        octree, list, bvh or bvh8; its options follow, e.g. --max_objects 5 --root box\n"
 	"  --threads N             threads (default: all processors); the results do not depend on it\n";
 
 struct arguments {
