@@ -49,8 +49,12 @@ paper: all ## the experiments of "Cost prediction for ray shooting", with a repo
 hierarchies: all ## the experiments of "A cost model for ray tracing hierarchies", with a report
 	@$(BUILD)/raycost run jobs/subramanian1990.yaml
 
-bench: $(BUILD)/tests/bench ## time building and shooting, beside Embree where libembree-dev is installed
+smits: all ## the experiments of "Efficiency issues for ray tracing", with a report
+	@$(BUILD)/raycost run jobs/smits1999.yaml
+
+bench: $(BUILD)/tests/bench $(BUILD)/tests/bench_bvh ## time building and shooting, beside Embree where libembree-dev is installed
 	@./$(BUILD)/tests/bench
+	@./$(BUILD)/tests/bench_bvh
 
 check-pov: $(BUILD)/tests/check_pov ## hold POV-Ray's example scenes against POV-Ray (needs povray, povray-examples, povray-includes)
 	@sh tests/check_pov.sh ./$(BUILD)/tests/check_pov
@@ -71,13 +75,13 @@ $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS) -lcmocka
 
 EMBREE := $(if $(wildcard /usr/include/embree3/rtcore.h),yes)
-$(BUILD)/tests/bench: $(BUILD)/tests/bench.o $(OBJ)
+$(BUILD)/tests/bench $(BUILD)/tests/bench_bvh: %: %.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS) $(if $(EMBREE),-lembree3)
+$(BUILD)/tests/bench.o $(BUILD)/tests/bench_bvh.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
+
 $(BUILD)/tests/check_pov: $(BUILD)/tests/check_pov.o $(OBJ)
 	$(CC) $(CF) -D_DEFAULT_SOURCE $^ -o $@ $(LIBS)
 $(BUILD)/tests/check_pov.o: CFLAGS += -D_DEFAULT_SOURCE
-
-$(BUILD)/tests/bench.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
 
 $(BUILD)/%.avx2.o: %.c
 	@mkdir -p $(@D)
@@ -102,8 +106,8 @@ $(BUILD)/src/main.o: $(BUILD)/version
 $(BUILD)/version: .FORCE
 	@mkdir -p $(@D); echo '$(VERSION)' | cmp -s - $@ || echo '$(VERSION)' > $@
 
--include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d
+-include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d $(BUILD)/tests/bench_bvh.d
 
-.PHONY: all deps test layers sweep paper hierarchies bench check-pov golden clean help .FORCE
+.PHONY: all deps test layers sweep paper hierarchies smits bench check-pov golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:

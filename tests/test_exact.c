@@ -163,7 +163,7 @@ static void threads_do_not_matter(void **state)
 	assert_int_equal(shoot_rays(&one, &a, WORKLOAD_INVARIANT, 30001, 5, 1, 0.5, 1, NULL, &e), 0);
 	for (int threads = 2; threads <= 7; threads += 5) {
 		assert_int_equal(shoot_rays(&other, &a, WORKLOAD_INVARIANT, 30001, 5, 1, 0.5, threads, NULL, &e), 0);
-		assert_memory_equal(&one, &other, sizeof one);
+		assert_memory_equal(&one, &other, offsetof(struct actual, walk_seconds));
 	}
 	assert_int_equal(shoot_rays(&other, &a, WORKLOAD_INVARIANT, 30001, 6, 1, 0.5, 1, NULL, &e), 0);
 	assert_int_not_equal(one.sum.tests, other.sum.tests);

@@ -156,7 +156,7 @@ static void stops_where_the_prediction_is_least(void **state)
 		*max_depth = 14;
 		*(int *)(void *)(options + stop->offset) = by;
 		struct accel a;
-		assert_int_equal(stop_build(&a, ops, options, &p, &reached, &e), 0);
+		assert_int_equal(stop_build(&a, ops, options, &p, 1, &reached, &e), 0);
 		assert_int_equal(reached, best);
 		assert_int_equal(a.depth, best);
 		accel_free(&a);

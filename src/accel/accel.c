@@ -2,9 +2,11 @@
 
 #include <string.h>
 
-extern const struct accel_ops accel_list, accel_octree, accel_kd, accel_bsp, accel_grid;
+extern const struct accel_ops accel_list, accel_octree, accel_kd, accel_bsp, accel_grid, accel_bvh, accel_bvh8;
 
-const struct accel_ops *const accel_all[] = { &accel_list, &accel_octree, &accel_kd, &accel_bsp, &accel_grid, NULL };
+const struct accel_ops *const accel_all[] = {
+	&accel_list, &accel_octree, &accel_kd, &accel_bsp, &accel_grid, &accel_bvh, &accel_bvh8, NULL
+};
 
 const struct accel_ops *accel_find(const char *name)
 {
@@ -16,7 +18,13 @@ const struct accel_ops *accel_find(const char *name)
 
 int accel_build(struct accel *a, const struct accel_ops *ops, const void *opt, const struct primitives *p, struct err *e)
 {
-	*a = (struct accel){ .ops = ops, .primitives = p };
+	return accel_build_on(a, ops, opt, p, 1, e);
+}
+
+int accel_build_on(struct accel *a, const struct accel_ops *ops, const void *opt, const struct primitives *p, int threads,
+                   struct err *e)
+{
+	*a = (struct accel){ .ops = ops, .primitives = p, .threads = threads };
 	if (ops->build(a, opt, e) == 0)
 		return 0;
 	accel_free(a);

@@ -1,10 +1,12 @@
+#define _DEFAULT_SOURCE /* madvise */
 #include "base/arena.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
-enum { ALIGN = 64, BLOCK = 64 * 1024 };
+enum { ALIGN = 64, BLOCK = 64 * 1024, HUGE_PAGE = 2 * 1024 * 1024 };
 
 /* Sits at the head of its own memory; 'used' counts from there. */
 struct arena_block {
@@ -17,12 +19,23 @@ static size_t round_up(size_t n)
 	return (n + ALIGN - 1) & ~(size_t)(ALIGN - 1);
 }
 
+void *arena_pages(size_t size)
+{
+	size_t align = size >= 2 * HUGE_PAGE ? HUGE_PAGE : ALIGN;
+	void *p = aligned_alloc(align, (size + align - 1) / align * align);
+#ifdef MADV_HUGEPAGE
+	if (p && align == HUGE_PAGE)
+		madvise(p, size / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE);
+#endif
+	return p;
+}
+
 static struct arena_block *add_block(struct arena *a, size_t need)
 {
 	size_t size = round_up(sizeof(struct arena_block)) + need;
 	if (size < BLOCK)
 		size = BLOCK;
-	struct arena_block *b = aligned_alloc(ALIGN, size);
+	struct arena_block *b = arena_pages(size);
 	if (!b)
 		return NULL;
 	*b = (struct arena_block){ a->last, size, round_up(sizeof *b) };

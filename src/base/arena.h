@@ -23,6 +23,10 @@ void *arena_grow(struct arena *a, const void *old, size_t old_count, size_t new_
 /* A NUL-terminated copy of n bytes; NULL as above. */
 char *arena_text(struct arena *a, const char *text, size_t n);
 
+/* 'size' bytes outside of any arena, not zeroed, 64-byte aligned, or NULL; free() gives them back. Large pieces lie in large pages where
+ * the system has them: walks that jump about in them miss fewer translations of addresses. */
+void *arena_pages(size_t size);
+
 /* Give everything back; the arena is then as new. */
 void arena_free(struct arena *a);
 

@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-static const char *const rays_words[] = { "invariant", "lines", NULL };
+static const char *const rays_words[] = { "invariant", "lines", "segments", "segments-twice", NULL };
 static const char *const sides_words[] = { "two", "one", "ext", NULL };
 
 #define AT(field) offsetof(struct measure_spec, field)
@@ -13,7 +13,8 @@ static const char *const sides_words[] = { "two", "one", "ext", NULL };
 
 const struct key measure_rays_keys[] = {
 	{ "rays", KEY_WORD, AT(rays), 0, 0, RAYS_INVARIANT, rays_words,
-	  "invariant: uniform by area over root and surfaces, cosine law; lines: through the root, nothing stops them" },
+	  "invariant: uniform by area over root and surfaces, cosine law; lines: through the root, nothing stops them; "
+	  "segments: any hit between two points of a box 20 % larger; segments-twice: each of them twice" },
 	{ "sides", KEY_WORD, AT(sides), 0, 0, SIDES_TWO, sides_words,
 	  "sides of every surface that rays start on: both, the front, or the front of closed solids" },
 	{ "count", KEY_INT, AT(count), 1, 1e12, 1e6, NULL, "number of rays" },
@@ -32,7 +33,7 @@ const char *measure_workload(const struct measure_spec *m)
 	static const char *const sides[] = { "invariant", "invariant-one-sided", "invariant-ext" };
 	if (m->render)
 		return "render";
-	return m->rays == RAYS_LINES ? "lines" : sides[m->sides];
+	return m->rays == RAYS_INVARIANT ? sides[m->sides] : rays_words[m->rays];
 }
 
 void measure_print(const struct measure_spec *m, char *out, size_t size)

@@ -15,7 +15,7 @@
 /* Characters of a key. */
 enum { KEY_LENGTH = 16 };
 
-static const char times_head[] = "key,job,scene,structure,seconds_build,seconds_predict,seconds_shoot,rays_per_second,bytes_held,"
+static const char times_head[] = "key,job,scene,structure,seconds_build,seconds_predict,seconds_shoot,seconds_walk,rays_per_second,bytes_held,"
                                  "bytes_peak\n";
 
 static int fault(const struct record *r, const char *file, struct err *e)

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Part of every key: to be raised when the same inputs give other rows. */
-enum { FORMAT = 3 };
+enum { FORMAT = 4 };
 
 #define AT(field) offsetof(struct row, field)
 #define TEXT(name, text) { #name, COLUMN_TEXT, AT(name), text }
@@ -33,7 +33,7 @@ const struct column row_columns[] = {
 	COUNT(spheres, "spheres in the scene"),
 	TEXT(structure, "kind of the structure"),
 	OPTION(balanced, "octree: leaves that share a vertex differ by at most one level"),
-	OPTION(max_objects, "octree, kd, bsp: a cell that lists more primitives is split"),
+	OPTION(max_objects, "octree, kd, bsp: a cell that lists more primitives is split; bvh: what a leaf may list"),
 	OPTION(root, "the region: bounding cube or tight bounding box"),
 	OPTION(max_depth, "octree, kd, bsp: cells below so many splits are not split"),
 	OPTION(overlap, "octree: exact or bounding-box lists"),
@@ -41,7 +41,7 @@ const struct column row_columns[] = {
 	OPTION(cutoff, "octree, features: cells of at most this share of the root's side are not split"),
 	OPTION(root_level, "octree, random: level of the root"),
 	OPTION(run, "octree, random: which of the trees"),
-	OPTION(traversal, "kd, bsp: recursive or restart"),
+	OPTION(traversal, "kd, bsp: recursive or restart; bvh: how rays find their way"),
 	OPTION(split, "kd: how planes are chosen"),
 	OPTION(boxes, "kd: a cell whose primitives' bounding box has less than this share of its area holds that box"),
 	OPTION(empty_halves, "bsp: what the remaining planes of an octree's step do to a half that lists nothing"),
@@ -52,7 +52,13 @@ const struct column row_columns[] = {
 	OPTION(density, "grid: cells a primitive"),
 	OPTION(mailbox, "kd, bsp, grid: which tests are spared"),
 	OPTION(stop, "kd, bsp, grid: by whose prediction subdivision ends"),
-	TEXT(workload, "invariant, invariant-one-sided, invariant-ext, lines or render"),
+	OPTION(builder, "bvh: how the tree is made"),
+	OPTION(bins, "bvh: bins an axis"),
+	OPTION(step, "bvh: what builders take an inner node to cost"),
+	OPTION(test, "bvh: what builders take a primitive in a leaf to cost"),
+	OPTION(optimise, "bvh: rounds of reinsertion"),
+	OPTION(kernel, "bvh8: instructions"),
+	TEXT(workload, "invariant, invariant-one-sided, invariant-ext, lines, segments, segments-twice or render"),
 	MEASURE(width, "image: pixels"),
 	MEASURE(height, "image: pixels"),
 	MEASURE(sampling, "image: primary rays through pixel centers or corners"),
@@ -64,7 +70,7 @@ const struct column row_columns[] = {
 	COUNT(rays, "number of rays shot"),
 	COUNT(missed, "image: rays that visit no cell; they are in no mean"),
 	COUNT(seed, "of the job; every random number follows from it and the scene"),
-	REAL("alpha", alpha, "cost of a visited leaf"),
+	REAL("alpha", alpha, "cost of a visited leaf; of a bvh's inner node"),
 	REAL("beta", beta, "cost of a ray-primitive test"),
 	TEXT(status, "ok or failed"),
 	TEXT(message, "why it failed"),
@@ -97,6 +103,11 @@ const struct column row_columns[] = {
 	REAL("flops_exact_traversal", flops_exact.traversal, "the same for traversal: 4.5 a plane passed, 15.5 a box, or 6.5 a voxel"),
 	REAL("flops_exact", flops_exact_sum, "their sum"),
 	REAL("flops_replay", flops_replay_sum, "image: flops a ray of the pilot's rays in this structure"),
+	REAL("predicted_volumes", predicted.volumes, "bvh: expected cost a ray of the nodes met up to its first hit"),
+	REAL("sah", predicted.sah, "bvh: surface area heuristic, sum of cost times area over the root's area"),
+	REAL("epo", predicted.epo, "bvh: end-point overlap, sum of cost times the surface of others inside over all surface"),
+	REAL("dq", predicted.dq, "bvh: the same with the node's own surface: what paths to leaves cost"),
+	REAL("surface_share", predicted.surface_share, "bvh: share of rays that start on surfaces: predicted_volumes = (1 - share) sah + share (epo + dq)"),
 	REAL("replay", replay.mean, "image: cost a ray of the pilot's rays in this structure"),
 	REAL("replay_low", replay.low, "lower end of its 95 % interval, by bootstrap over the pilot's pixels"),
 	REAL("replay_high", replay.high, "upper end of it"),
@@ -128,15 +139,17 @@ const struct column row_columns[] = {
 	REAL("actual_inner_start_se", actual.inner_start.se, "its standard error"),
 	REAL("actual_inner", actual.inner.mean, "inner nodes visited a ray"),
 	REAL("actual_inner_se", actual.inner.se, "its standard error"),
-	REAL("actual_boxes", actual.boxes.mean, "boxes of inner nodes tested a ray"),
+	REAL("actual_boxes", actual.boxes.mean, "ray-box tests a ray"),
 	REAL("actual_boxes_se", actual.boxes.se, "its standard error"),
 	REAL("flops_actual_scene", flops_actual.scene, "measured flops a ray for primitives: 15.5 a test made"),
 	REAL("flops_actual_traversal", flops_actual.traversal, "measured flops a ray for traversal"),
 	REAL("flops_actual", flops_actual_sum, "their sum"),
+	REAL("lcv", lcv, "bvh: leaf count variability, the standard deviation of the leaves visited a ray"),
 	REAL("actual_hits", actual.hits.mean, "share of rays that end on a primitive"),
 	REAL("actual_hits_se", actual.hits.se, "its standard error"),
 	REAL("ratio", ratio, "predicted / actual"),
 	REAL("ratio_exact", ratio_exact, "predicted_exact / actual"),
+	REAL("ratio_volumes", ratio_volumes, "predicted_volumes / actual"),
 	REAL("ratio_replay", ratio_replay, "replay / actual"),
 	REAL("ratio_calibrated", ratio_calibrated, "calibrated / actual"),
 	REAL("z_exact", z_exact, "(actual - predicted_exact) / actual_se"),
@@ -302,6 +315,9 @@ void row_complete(struct row *r, const struct accel *a, const struct measure_spe
 	r->actual_high = actual->cost.mean + 1.96 * actual->cost.se;
 	r->ratio = p->predicted / actual->cost.mean;
 	r->ratio_exact = p->predicted_exact / actual->cost.mean;
+	r->ratio_volumes = p->volumes / actual->cost.mean;
+	if (a->volumes && !measure->render)
+		r->lcv = actual->leaves.se * sqrt((double)actual->rays - 1);
 	r->overhead_predicted = (p->leaves + p->inner_step) / p->leaves;
 	r->overhead_actual = (actual->leaves.mean + actual->inner_step.mean) / actual->leaves.mean;
 	if (a->mailbox != MAILBOX_NONE)

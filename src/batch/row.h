@@ -22,7 +22,7 @@ struct row {
 	struct actual actual;
 	struct class_tally classes[RAY_CLASSES];
 	uint64_t class_counts[RAY_CLASSES][5]; /* rays, hits, leaves, tests, inner */
-	double ratio_replay, ratio_calibrated;
+	double ratio_replay, ratio_calibrated, ratio_volumes, lcv;
 	double actual_low, actual_high;
 	struct model model;
 	struct flops flops_exact, flops_actual;

@@ -68,8 +68,8 @@ static int write_times(struct run *r, const struct row *row, const struct built 
 	struct rusage usage;
 	getrusage(RUSAGE_SELF, &usage);
 	structure_print(row->spec, field, sizeof field);
-	text_print(&line, "%016" PRIx64 ",%s,%s,%s,%.6f,%.6f,%.6f,%.0f,%zu,%ld\n", row->key, row->job, row->scene, field,
-	           built->seconds, predict, shoot, shoot > 0 ? (double)row->rays / shoot : 0, built->accel.mem.held,
+	text_print(&line, "%016" PRIx64 ",%s,%s,%s,%.6f,%.6f,%.6f,%.6f,%.0f,%zu,%ld\n", row->key, row->job, row->scene, field,
+	           built->seconds, predict, shoot, row->actual.walk_seconds, shoot > 0 ? (double)row->rays / shoot : 0, built->accel.mem.held,
 	           usage.ru_maxrss * 1024);
 	int status = line.lost ? err_memory(r->err, "times") : record_time(&r->record, line.bytes, r->err);
 	text_free(&line);
@@ -97,7 +97,7 @@ static enum law law_of(const struct measure_spec *m)
 	static const enum law laws[] = { LAW_RAYS, LAW_ONE_SIDED, LAW_EXT };
 	if (m->render)
 		return LAW_RAYS;
-	return m->rays == RAYS_LINES ? LAW_LINES : laws[m->sides];
+	return m->rays == RAYS_LINES ? LAW_LINES : m->rays == RAYS_INVARIANT ? laws[m->sides] : LAW_NONE;
 }
 
 static int predict(struct row *row, struct built *built, const struct measure_spec *m, struct err *e)
@@ -156,7 +156,8 @@ static int measure_rays(struct run *r, struct row *row, const struct built *buil
 	/* Every scene has its own random numbers, so that deviations in one say nothing about another; its variants share them, so
 	 * that they differ by structure only. */
 	uint64_t seed = rng_mix((uint64_t)r->job->seed ^ built->accel.primitives->hash);
-	enum workload workload = m->rays == RAYS_LINES ? WORKLOAD_LINES : m->sides == SIDES_TWO ? WORKLOAD_INVARIANT : WORKLOAD_ONE_SIDED;
+	static const enum workload workloads[] = { WORKLOAD_INVARIANT, WORKLOAD_LINES, WORKLOAD_SEGMENTS, WORKLOAD_SEGMENTS_TWICE };
+	enum workload workload = m->rays == RAYS_INVARIANT && m->sides != SIDES_TWO ? WORKLOAD_ONE_SIDED : workloads[m->rays];
 	double start = clock_seconds();
 	int status = shoot_rays(&row->actual, &built->accel, workload, (uint64_t)m->count, seed, m->alpha, m->beta,
 	                        r->options->threads, r->options->stop, fault);
@@ -201,7 +202,7 @@ static int do_row(struct run *r, struct bench *bench, struct built *built, size_
 		double start = clock_seconds();
 		built->tried = true;
 		built->ok = stop_build(&built->accel, built->structure->ops, built->structure->options, &bench->primitives,
-		                       &built->stopped_at, &built->fault) == 0;
+		                       r->options->threads, &built->stopped_at, &built->fault) == 0;
 		built->seconds = clock_seconds() - start;
 	}
 	if (!built->ok)

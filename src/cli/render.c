@@ -20,7 +20,7 @@ static const char help[] =
 	"  --ray_depth N           of the tree of rays; a primary ray has 1 (5)\n"
 	"  --shadows facing        shadow rays only to lights that the surface faces, not to all\n"
 	"  --weight X              rays that could add less than this share to a pixel are not shot (0)\n"
-	"  --structure NAME        octree, list, kd, bsp or grid; its options follow, e.g. --max_objects 5 --root box\n"
+	"  --structure NAME        octree, list, kd, bsp, grid, bvh or bvh8; its options follow, e.g. --max_objects 5 --root box\n"
 	"  --threads N             threads (default: all processors); the results do not depend on it\n" READING_HELP;
 
 struct arguments {
@@ -104,7 +104,7 @@ static int render(const struct arguments *a, struct cli *cli, const struct scene
 	struct accel accel;
 	struct rendering image = { 0 };
 	struct render_run run = { .alpha = 1, .beta = 1, .threads = a->threads, .stop = cli->stop, .progress = show, .ctx = &progress };
-	if (stop_build(&accel, a->ops, a->options, p, NULL, e) != 0)
+	if (stop_build(&accel, a->ops, a->options, p, a->threads, NULL, e) != 0)
 		return -1;
 	progress_open(&progress);
 	int status = render_scene(&image, s, &accel, &a->render, &run, e);

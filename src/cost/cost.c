@@ -15,6 +15,7 @@
  * 2 a becomes a, and Z = A(root) + a. */
 #include "cost/cost.h"
 
+#include "cost/bvh.h"
 #include "cost/mailbox.h"
 #include "cost/solid.h"
 #include "cost/surface.h"
@@ -175,6 +176,12 @@ static void clear_unknown(struct prediction *p, enum law law)
 
 int cost_predict(struct prediction *p, const struct accel *a, enum law law, double alpha, double beta, struct err *e)
 {
+	if (law == LAW_NONE) {
+		*p = prediction_unknown();
+		return 0;
+	}
+	if (a->volumes)
+		return bvh_predict(p, a, law, alpha, beta, e);
 	struct solid solid = { 0 };
 	struct sums s = { .accel = a, .err = e, .depth = -1, .law = law, .solid = &solid, .alpha = alpha, .beta = beta };
 	int status = law == LAW_EXT ? solid_open(&solid, a, e) : 0;
@@ -208,6 +215,7 @@ int cost_predict(struct prediction *p, const struct accel *a, enum law law, doub
 		.boxes = s.boxes / all,
 		.area_inside = s.area_inside,
 		.area_leaves = s.area_leaves,
+		.volumes = NAN, .sah = NAN, .epo = NAN, .dq = NAN, .surface_share = NAN,
 	};
 	choose_travel(p, a->travel, s.has_boxes);
 	clear_unknown(p, law);

@@ -7,8 +7,9 @@
 /* The law the rays follow. RAYS: starts on the inner side of the root and on both sides of every primitive, uniform by area,
  * cosine law, ended by the first hit. LINES: starts on the root only, nothing stops them. ONE_SIDED: RAYS from the front sides only;
  * no exact form is known in areas alone, since it matters what lies behind. EXT: ONE_SIDED where the primitives are triangles that
- * bound disjoint solids (not touching over a face either), so that no ray runs inside one. */
-enum law { LAW_RAYS, LAW_LINES, LAW_ONE_SIDED, LAW_EXT };
+ * bound disjoint solids (not touching over a face either), so that no ray runs inside one. NONE: no law with a
+ * formula. */
+enum law { LAW_RAYS, LAW_LINES, LAW_ONE_SIDED, LAW_EXT, LAW_NONE };
 
 /* Expected counts per ray; costs are alpha * leaves + beta * tests. NAN: no formula. */
 struct prediction {
@@ -26,7 +27,15 @@ struct prediction {
 	double boxes;               /* inner nodes that hold a box */
 	double area_inside;         /* sum of the surface inside the cells; equals the primitives' area */
 	double area_leaves;         /* sum of the leaves' surface areas */
+	/* Bounding volume hierarchies only (cost/bvh.h): the expected cost of the nodes met up to the first hit, and its parts. */
+	double volumes, sah, epo, dq, surface_share;
 };
+
+/* Everything NAN. */
+static inline struct prediction prediction_unknown(void)
+{
+	return (struct prediction){ NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN };
+}
 
 /* 0, or -1 and *e: memory; EXT over what bounds no solids. */
 int cost_predict(struct prediction *p, const struct accel *a, enum law law, double alpha, double beta, struct err *e);

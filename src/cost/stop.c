@@ -68,7 +68,8 @@ static int search(int64_t *best, const struct limit *l, enum stop stop, const st
 	return 0;
 }
 
-int stop_build(struct accel *a, const struct accel_ops *ops, const void *opt, const struct primitives *p, int64_t *reached, struct err *e)
+int stop_build(struct accel *a, const struct accel_ops *ops, const void *opt, const struct primitives *p, int threads,
+               int64_t *reached, struct err *e)
 {
 	_Alignas(16) unsigned char options[ACCEL_OPT_MOST];
 	const struct key *k = key_find(ops->keys, "stop");
@@ -85,5 +86,5 @@ int stop_build(struct accel *a, const struct accel_ops *ops, const void *opt, co
 		if (reached)
 			*reached = best;
 	}
-	return accel_build(a, ops, options, p, e);
+	return accel_build_on(a, ops, options, p, threads, e);
 }

@@ -12,12 +12,14 @@
 /* o + t d, |d| = 1, t in [0, t_max]. from: id of the primitive it starts on, or NO_PRIMITIVE.
  * slack: 1e-9 of the root's diagonal; what lies nearer than that to the start lies at the start.
  * through: a line rather than a ray; primitives are listed and counted, none stops it.
+ * any: whatever is hit may end it, the nearest or not; structures that gain nothing by that find the nearest;
+ *   its t is then no more than an upper bound.
  * clear: nothing within slack of the start stops it: a ray of an image leaves all surfaces that coincide where it starts. */
 struct ray {
 	struct vec o, d;
 	double t_max, slack;
 	uint32_t from;
-	bool through, clear;
+	bool through, clear, any;
 };
 
 /* t at the hit and the id of what was hit; t = t_max, NO_PRIMITIVE before any. */

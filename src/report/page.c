@@ -3,8 +3,10 @@
 #include "report/claims.h"
 #include "report/figures.h"
 #include "report/grids.h"
+#include "report/ladder.h"
 #include "report/rows.h"
 #include "report/subramanian.h"
+#include "report/volumes.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -130,9 +132,9 @@ static void add_claims(struct text *page, const struct table *t)
 
 static void add_rows(struct text *page, const struct table *t)
 {
-	static const char *const shown[] = { "scene", "triangles", "structure", "criterion", "balanced", "max_objects", "root", "run", "workload",
-		"rays", "status", "nodes", "leaves", "predicted", "predicted_exact", "replay", "calibrated", "actual", "actual_se", "ratio",
-		"ratio_exact", "ratio_replay", "ratio_calibrated", "z_exact", "overhead_predicted", "overhead_actual" };
+	static const char *const shown[] = { "scene", "triangles", "structure", "builder", "traversal", "optimise", "criterion", "balanced", "max_objects", "root", "run", "workload",
+		"rays", "status", "nodes", "leaves", "predicted", "predicted_exact", "predicted_volumes", "sah", "epo", "dq", "lcv", "replay", "calibrated", "actual", "actual_se", "ratio",
+		"ratio_exact", "ratio_volumes", "ratio_replay", "ratio_calibrated", "z_exact", "overhead_predicted", "overhead_actual" };
 	text_print(page, "<h2>Every row</h2>\n<p>A click on a head sorts. All columns are in <a href=\"counts.csv\">counts.csv</a>.</p>\n"
 	                 "<div class=\"wide\"><table><thead><tr>");
 	for (size_t c = 0; c < sizeof shown / sizeof *shown; c++)
@@ -175,6 +177,10 @@ int report_write(const char *folder, struct text *said, struct err *e)
 		add_claims(&page, &t);
 		subramanian_print(&page, &t, &times);
 		grids_print(&page, &t);
+		volumes_add(&page, &t);
+		status = ladder_add(&page, &t, folder, e);
+	}
+	if (status == 0) {
 		status = add_figures(&page, &t, folder, said, e);
 		add_rows(&page, &t);
 		text_add(&page, tail, sizeof tail - 1);

@@ -16,6 +16,7 @@ int ray_source_open(struct ray_source *s, const struct accel *a, enum workload w
 {
 	const struct primitives *p = a->primitives;
 	*s = (struct ray_source){ .accel = a, .workload = w, .seed = seed, .root_area = box_area(&a->root) };
+	s->segments = w == WORKLOAD_SEGMENTS || w == WORKLOAD_SEGMENTS_TWICE;
 	s->sides = w == WORKLOAD_INVARIANT ? 2 : w == WORKLOAD_ONE_SIDED ? 1 : 0;
 	s->upto = NEW(&s->mem, double, p->count);
 	s->guide = NEW(&s->mem, uint32_t, p->count);
@@ -111,8 +112,24 @@ static uint32_t find_primitive(const struct ray_source *s, double pick)
 	return i;
 }
 
+static struct ray draw_segment(const struct ray_source *s, uint64_t index)
+{
+	const struct box *b = &s->accel->primitives->bounds;
+	struct draw d = { rng_key(s->seed, WORKLOAD_SEGMENTS, s->workload == WORKLOAD_SEGMENTS_TWICE ? index / 2 : index), 0 };
+	struct vec from, to;
+	for (int i = 0; i < 3; i++) {
+		double length = b->hi.a[i] - b->lo.a[i];
+		from.a[i] = b->lo.a[i] + length * (1.2 * next(&d) - 0.1);
+		to.a[i] = b->lo.a[i] + length * (1.2 * next(&d) - 0.1);
+	}
+	struct vec way = vec_sub(to, from);
+	return (struct ray){ .o = from, .d = vec_unit(way), .t_max = vec_length(way), .slack = s->accel->slack, .from = NO_PRIMITIVE, .any = true };
+}
+
 struct ray ray_source_draw(const struct ray_source *s, uint64_t index)
 {
+	if (s->segments)
+		return draw_segment(s, index);
 	const struct primitives *p = s->accel->primitives;
 	struct draw d = { rng_key(s->seed, s->workload, index), 0 };
 	struct ray r = { .t_max = INFINITY, .slack = s->accel->slack, .from = NO_PRIMITIVE, .through = s->sides == 0 };

@@ -10,6 +10,7 @@ struct ray_source {
 	const struct accel *accel; /* borrowed */
 	enum workload workload;
 	uint64_t seed;
+	bool segments;
 	double root_area, sides;   /* sides counted of every primitive: 2, 1 or 0 */
 	double *upto;              /* area of primitives 0 .. i */
 	uint32_t *guide;           /* first primitive with upto > k / count of the area; where the search starts */

@@ -49,7 +49,7 @@ struct wave {
 struct block_sums {
 	struct class_tally classes[RAY_CLASSES];
 	struct tally square, cross; /* per sample: counts squared, and times the sample's rays */
-	uint64_t rays, rays_square, leaves_tests, step_start;
+	uint64_t rays, rays_square, steps_tests, step_start;
 	struct segment *segments;   /* from malloc, or NULL */
 	size_t segment_count, segment_room;
 };
@@ -213,7 +213,7 @@ static void count_ray(struct block *b, const struct origin *from, const struct t
 {
 	struct class_tally *c = &b->sums->classes[from->class];
 	c->rays++;
-	if (n->leaves + n->inner_start == 0) {
+	if (n->leaves + n->inner_start + n->inner_step == 0) {
 		c->missed++;
 		return;
 	}
@@ -269,7 +269,7 @@ static void sum_samples(struct block *b, size_t count)
 		ADD(boxes);
 		ADD(hits);
 #undef ADD
-		s->leaves_tests += n->leaves * n->tests;
+		s->steps_tests += accel_steps(b->render->accel, n) * n->tests;
 		s->step_start += n->inner_step * n->inner_start;
 		s->rays += rays;
 		s->rays_square += rays * rays;
@@ -329,7 +329,7 @@ static void sum_up(struct rendering *out, const struct render *r, size_t blocks)
 		add_tally(&all.cross, &b->cross);
 		all.rays += b->rays;
 		all.rays_square += b->rays_square;
-		all.leaves_tests += b->leaves_tests;
+		all.steps_tests += b->steps_tests;
 		all.step_start += b->step_start;
 	}
 	a->rays = all.rays;
@@ -345,10 +345,10 @@ static void sum_up(struct rendering *out, const struct render *r, size_t blocks)
 	a->inner = ratio_mean((double)a->sum.inner_step + (double)a->sum.inner_start,
 	                      (double)all.square.inner_step + (double)all.square.inner_start + 2 * (double)all.step_start,
 	                      (double)all.cross.inner_step + (double)all.cross.inner_start, &all, r->samples);
-	double square = alpha * alpha * (double)all.square.leaves + beta * beta * (double)all.square.tests +
-	                2 * alpha * beta * (double)all.leaves_tests;
-	a->cost = ratio_mean(alpha * (double)a->sum.leaves + beta * (double)a->sum.tests, square,
-	                     alpha * (double)all.cross.leaves + beta * (double)all.cross.tests, &all, r->samples);
+	double square = alpha * alpha * (double)accel_steps(r->accel, &all.square) + beta * beta * (double)all.square.tests +
+	                2 * alpha * beta * (double)all.steps_tests;
+	a->cost = ratio_mean(alpha * (double)accel_steps(r->accel, &a->sum) + beta * (double)a->sum.tests, square,
+	                     alpha * (double)accel_steps(r->accel, &all.cross) + beta * (double)all.cross.tests, &all, r->samples);
 }
 
 static unsigned char to_byte(double x)

@@ -55,9 +55,9 @@ static void replay_block(struct pixel *pixels, struct replay_counts *counts, str
 	a->ops->shoot_many(a, w->rays, count, w->hits, w->tallies);
 	for (size_t i = 0; i < count; i++) {
 		struct pixel *p = &pixels[segments[i].sample];
-		p->cost += alpha * (double)w->tallies[i].leaves + beta * (double)w->tallies[i].tests;
+		p->cost += alpha * (double)accel_steps(a, &w->tallies[i]) + beta * (double)w->tallies[i].tests;
 		add_counts(counts, &w->tallies[i], a->mailbox != MAILBOX_NONE);
-		p->rays += w->tallies[i].leaves + w->tallies[i].inner_start > 0;
+		p->rays += w->tallies[i].leaves + w->tallies[i].inner_start + w->tallies[i].inner_step > 0;
 	}
 }
 

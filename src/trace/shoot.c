@@ -6,11 +6,14 @@
 
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <time.h>
 
-/* What a block of rays sums up: counts, their squares, and products of two. Integers: the order does not matter. */
+/* What a block of rays sums up: counts, their squares, and products of two, steps (accel_steps) times tests among them. Integers: the
+ * order does not matter. */
 struct block {
 	struct tally sum, square;
-	uint64_t leaves_tests, step_start;
+	uint64_t steps_tests, step_start;
+	double seconds;
 };
 
 struct run {
@@ -21,7 +24,7 @@ struct run {
 	atomic_bool failed; /* memory ran out */
 };
 
-static void add_ray(struct block *b, const struct tally *n)
+static void add_ray(struct block *b, const struct accel *a, const struct tally *n)
 {
 #define ADD(field) do { b->sum.field += n->field; b->square.field += n->field * n->field; } while (0)
 	ADD(leaves);
@@ -32,7 +35,7 @@ static void add_ray(struct block *b, const struct tally *n)
 	ADD(boxes);
 	ADD(hits);
 #undef ADD
-	b->leaves_tests += n->leaves * n->tests;
+	b->steps_tests += accel_steps(a, n) * n->tests;
 	b->step_start += n->inner_step * n->inner_start;
 }
 
@@ -43,6 +46,13 @@ struct work {
 	struct hit hit[RAYS_BLOCK];
 	struct tally tally[RAYS_BLOCK];
 };
+
+static double thread_seconds(void)
+{
+	struct timespec t;
+	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
 
 static void shoot_block(void *ctx, size_t i)
 {
@@ -58,11 +68,17 @@ static void shoot_block(void *ctx, size_t i)
 	}
 	uint64_t first = (uint64_t)i * RAYS_BLOCK;
 	size_t n = first + RAYS_BLOCK < run->count ? RAYS_BLOCK : (size_t)(run->count - first);
+	const struct ray *rays = w->drawn;
 	ray_source_draw_many(&run->source, first, n, w->drawn);
-	rays_sort(w->sorted, &w->sorter, w->drawn, n, &a->root); /* the counts do not depend on the order */
-	a->ops->shoot_many(a, w->sorted, n, w->hit, w->tally);
+	if (!run->source.segments) { /* the counts do not depend on the order */
+		rays_sort(w->sorted, &w->sorter, w->drawn, n, &a->root);
+		rays = w->sorted;
+	}
+	double start = thread_seconds();
+	a->ops->shoot_many(a, rays, n, w->hit, w->tally);
+	b.seconds = thread_seconds() - start;
 	for (size_t k = 0; k < n; k++)
-		add_ray(&b, &w->tally[k]);
+		add_ray(&b, a, &w->tally[k]);
 	run->blocks[i] = b;
 	free(w);
 }
@@ -75,7 +91,7 @@ static struct mean mean_of(double sum, double square, double n)
 
 /* Squares of counts as doubles: only the standard errors need them. */
 struct squares {
-	double leaves, tests, tests_made, inner_step, inner_start, boxes, hits, leaves_tests, step_start;
+	double leaves, tests, tests_made, inner_step, inner_start, boxes, hits, steps_tests, step_start;
 };
 
 /* Merge the blocks in order. */
@@ -95,8 +111,9 @@ static void sum_up(struct actual *out, const struct run *run, size_t blocks, dou
 		ADD(boxes);
 		ADD(hits);
 #undef ADD
-		q.leaves_tests += (double)b->leaves_tests;
+		q.steps_tests += (double)b->steps_tests;
 		q.step_start += (double)b->step_start;
+		out->walk_seconds += b->seconds;
 	}
 #define MEAN(field) out->field = mean_of((double)sum->field, q.field, n)
 	MEAN(leaves);
@@ -107,8 +124,9 @@ static void sum_up(struct actual *out, const struct run *run, size_t blocks, dou
 	MEAN(boxes);
 	MEAN(hits);
 #undef MEAN
-	out->cost = mean_of(alpha * (double)sum->leaves + beta * (double)sum->tests,
-	                    alpha * alpha * q.leaves + beta * beta * q.tests + 2 * alpha * beta * q.leaves_tests, n);
+	double steps = run->source.accel->volumes ? q.inner_step : q.leaves;
+	out->cost = mean_of(alpha * (double)accel_steps(run->source.accel, sum) + beta * (double)sum->tests,
+	                    alpha * alpha * steps + beta * beta * q.tests + 2 * alpha * beta * q.steps_tests, n);
 	out->inner = mean_of((double)sum->inner_step + (double)sum->inner_start, q.inner_step + q.inner_start + 2 * q.step_start, n);
 }
 

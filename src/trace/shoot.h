@@ -7,8 +7,9 @@
 #include <stdatomic.h>
 
 /* INVARIANT: the law of cost/cost.h, both sides of every primitive. ONE_SIDED: the front sides only. LINES: from the root only,
- * nothing stops them. */
-enum workload { WORKLOAD_INVARIANT, WORKLOAD_ONE_SIDED, WORKLOAD_LINES };
+ * nothing stops them. SEGMENTS: between two points, uniform in the box of the primitives made 20 % longer on every axis; any hit will
+ * do (Smits 1999); they are shot in the order drawn, not sorted. SEGMENTS_TWICE: each of them twice, one after the other. */
+enum workload { WORKLOAD_INVARIANT, WORKLOAD_ONE_SIDED, WORKLOAD_LINES, WORKLOAD_SEGMENTS, WORKLOAD_SEGMENTS_TWICE };
 
 /* A mean over rays and its standard error. */
 struct mean {
@@ -18,8 +19,9 @@ struct mean {
 struct actual {
 	uint64_t rays;
 	struct tally sum; /* exact */
-	/* Per ray; cost = alpha leaves + beta tests, inner = inner_step + inner_start. */
+	/* Per ray; cost = alpha leaves + beta tests, for volumes alpha inner_step + beta tests; inner = inner_step + inner_start. */
 	struct mean cost, leaves, tests, tests_made, inner_step, inner_start, inner, boxes, hits;
+	double walk_seconds; /* of all threads, without drawing the rays; the one thing here that is not the same every time */
 };
 
 /* Shoot rays 0 .. count-1 of the workload; every number follows from (seed, ray number), whatever the threads.

@@ -1,0 +1,11 @@
+/* How near the exact cost of bounding volume hierarchies comes to what an ordered traversal costs. */
+#ifndef REPORT_VOLUMES_H
+#define REPORT_VOLUMES_H
+
+#include "io/text.h"
+#include "report/table.h"
+
+/* Add it to an HTML page if the record holds rows of it. */
+void volumes_add(struct text *page, const struct table *t);
+
+#endif
