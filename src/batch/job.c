@@ -3,6 +3,7 @@
 #include "batch/job_reader.h"
 #include "io/text.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -32,6 +33,8 @@ int job_append(struct job_reader *r, void **array, size_t *count, size_t *room, 
 {
 	if (*count >= JOB_ROWS_MOST && !r->options->many)
 		return values_fault(&r->values, 0, "more than %d combinations; --many if they are meant", JOB_ROWS_MOST);
+	if (*count >= JOB_ROWS_MANY)
+		return values_fault(&r->values, 0, "more than %d combinations", JOB_ROWS_MANY);
 	if (*count == *room) {
 		size_t want = *room ? *room * 2 : 64;
 		void *grown = arena_grow(&r->job->mem, *array, *count, want, size);
@@ -289,6 +292,8 @@ static void read_root(struct job_reader *r, struct yaml_node *root)
 	size_t rows = job_rows(r->job);
 	if (rows > JOB_ROWS_MOST && !r->options->many)
 		values_fault(&r->values, 0, "%zu rows, more than %d; --many if they are meant", rows, JOB_ROWS_MOST);
+	else if (rows > JOB_ROWS_MANY)
+		values_fault(&r->values, 0, "%zu rows, more than %d", rows, JOB_ROWS_MANY);
 }
 
 size_t job_rows(const struct job *job)
@@ -296,7 +301,10 @@ size_t job_rows(const struct job *job)
 	size_t rows = 0;
 	for (size_t i = 0; i < job->experiment_count; i++) {
 		const struct experiment *x = &job->experiments[i];
-		rows += x->scene_count * x->structure_count * x->measure_count;
+		size_t more;
+		if (__builtin_mul_overflow(x->scene_count, x->structure_count, &more) ||
+		    __builtin_mul_overflow(more, x->measure_count, &more) || __builtin_add_overflow(rows, more, &rows))
+			return SIZE_MAX;
 	}
 	return rows;
 }

@@ -1,8 +1,10 @@
 /* The scenes of a job: generated families and files, their options and names. */
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "batch/job_reader.h"
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -33,6 +35,9 @@ static const char *name_scene(struct job_reader *r)
 	if (s->path) {
 		const char *slash = strrchr(s->path, '/'), *base = slash ? slash + 1 : s->path;
 		n = (size_t)snprintf(name, sizeof name, "%.*s", (int)(strcspn(base, ".") ? strcspn(base, ".") : strlen(base)), base);
+		for (char *p = name; *p; p++) /* a line of a table, and a file */
+			if ((unsigned char)*p < 0x20 || *p == 0x7f)
+				*p = '_';
 	} else {
 		int64_t size = s->spd.size == SPD_DEFAULT_SIZE ? s->family->default_size : s->spd.size;
 		n = (size_t)snprintf(name, sizeof name, "%s", s->family->name);
@@ -161,6 +166,17 @@ static bool leads_out(const char *path)
 	return false;
 }
 
+/* Whether a file that is there lies in a folder, symbolic links followed; false, too, where that cannot be told. */
+static bool is_inside(const char *folder, const char *path)
+{
+	char *outer = realpath(*folder ? folder : ".", NULL), *inner = realpath(path, NULL);
+	size_t n = outer ? strlen(outer) : 0;
+	bool inside = outer && inner && strncmp(outer, inner, n) == 0 && (inner[n] == '/' || n == 1);
+	free(outer);
+	free(inner);
+	return inside;
+}
+
 static int emit_file(void *ctx)
 {
 	struct job_reader *r = ctx;
@@ -171,6 +187,8 @@ static int emit_file(void *ctx)
 	snprintf(path, sizeof path, "%s%s", *given == '/' ? "" : r->folder, given);
 	if (access(path, R_OK) != 0)
 		return values_fault(&r->values, r->line, "%s: %s", path, strerror(errno));
+	if (!r->options->allow_outside && !is_inside(r->folder, path))
+		return values_fault(&r->values, r->line, "%s is a link out of the job file's folder; --allow-outside lets it", given);
 	r->scene.path = arena_text(&r->job->mem, path, strlen(path));
 	int status = r->scene.path ? emit_scene(r) : err_memory(r->values.err, "job");
 	r->scene.path = given;

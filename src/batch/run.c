@@ -172,9 +172,10 @@ static int measure_row(struct run *r, struct row *row, struct bench *bench, stru
 	if (status != 0)
 		return write_failure(r, row, &fault);
 	row_complete(row, &built->accel, m);
-	if (write_row(r, row, false) != 0)
+	/* Times first: a row that is there has its times, however the run ends. */
+	if (write_times(r, row, built, clock_seconds() - start - seconds, seconds) != 0)
 		return -1;
-	return write_times(r, row, built, clock_seconds() - start - seconds, seconds);
+	return write_row(r, row, false);
 }
 
 static int do_row(struct run *r, struct bench *bench, struct built *built, size_t measure)
@@ -228,7 +229,7 @@ static int do_scene(struct run *r, const struct experiment *x, const struct scen
 		return err_memory(r->err, "run");
 	bench.loaded = load_scene(&bench.primitives, &bench.setting, &text, scene, &bench.fault) == 0;
 	if (bench.loaded && r->job->save_scenes)
-		status = keep_scene(r->record.folder, scene->name, &text, r->options->fresh, r->err);
+		status = keep_scene(r->record.folder, scene->name, &text, r->err);
 	bench.text_hash = hash_bytes(text.bytes, text.size);
 	text_free(&text);
 	for (size_t i = 0; status == 0 && i < x->structure_count; i++)
