@@ -69,6 +69,8 @@ int manifest_write(const struct manifest *m, const struct run_result *result, in
 	else
 		add_string(&t, "end", end, ",");
 	text_print(&t, "  \"seed\": %lld,\n  \"threads\": %d,\n", (long long)m->job->seed, m->options->threads);
+	if (m->options->shards)
+		text_print(&t, "  \"shard\": %u,\n  \"shards\": %u,\n", m->options->shard, m->options->shards);
 	text_print(&t, "  \"rows_kept\": %zu,\n  \"rows_added\": %zu,\n  \"rows_failed\": %zu,\n", result->kept, result->added,
 	           result->failed);
 	if (status < 0)
