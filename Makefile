@@ -12,6 +12,7 @@ VERSION := $(shell git describe --always --dirty --tags 2>/dev/null || echo unkn
 
 OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c))
 TESTS   := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
+FUZZ    := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 
 # What SIZE holds reaches the sweep as data: not expanded by make, not read by the shell.
 override SIZE := $(value SIZE)
@@ -27,9 +28,19 @@ deps: ## install what is missing (Debian: apt)
 	root=; [ "$$(id -u)" = 0 ] || root=sudo; \
 	$$root apt-get update -q && $$root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing
 
-test: $(TESTS) $(BUILD)/raycost layers ## run every test; SAN=address,undefined or SAN=thread runs them sanitized
+test: $(TESTS) $(FUZZ:%=$(BUILD)/tests/fuzz/replay_%) $(BUILD)/raycost layers ## run every test; SAN=address,undefined or SAN=thread runs them sanitized
 	@set -e; for t in $(TESTS); do ./$$t; done
+	@set -e; for f in $(FUZZ); do printf 'fuzz, %s: ' $$f; \
+		$(BUILD)/tests/fuzz/replay_$$f tests/fuzz/$$f tests/crashers/$$f 2>$(BUILD)/replay.log || { cat $(BUILD)/replay.log; exit 1; }; done
 	@RAYCOST=$(BUILD)/raycost sh tests/cli.sh
+
+SECONDS ?= 60
+fuzz: $(FUZZ:%=build/fuzz/fuzz_%) ## fuzz every reader for SECONDS=60 in all, under ASan and UBSan (clang with libFuzzer)
+	@set -e; for f in $(FUZZ); do mkdir -p build/fuzz/corpus/$$f tests/crashers/$$f; echo "fuzz, $$f:"; \
+		build/fuzz/fuzz_$$f -max_total_time=$$(($(SECONDS) / $(words $(FUZZ)))) -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
+			$$(ls tests/fuzz/$$f.dict 2>/dev/null | sed s/^/-dict=/) -artifact_prefix=tests/crashers/$$f/ build/fuzz/corpus/$$f tests/fuzz/$$f \
+			>build/fuzz/$$f.log 2>&1 || { tail -40 build/fuzz/$$f.log; exit 1; }; \
+		grep -E 'number_of_executed_units|new_units_added|peak_rss' build/fuzz/$$f.log; done; rmdir tests/crashers/* 2>/dev/null || true
 
 layers: ## prove that every folder includes only its own floor and those below
 	@sh tests/layers.sh $(FLOORS)
@@ -58,6 +69,17 @@ $(BUILD)/raycost: $(BUILD)/src/main.o $(OBJ)
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS) -lcmocka
 
+$(BUILD)/tests/fuzz/replay_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/fuzz.o $(BUILD)/tests/fuzz/replay.o $(OBJ)
+	$(CC) $(CF) $^ -o $@ $(LIBS)
+
+FUZZ_FLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contract=off -pthread -Isrc -I. \
+              -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+build/fuzz/%.o: %.c
+	@mkdir -p $(@D)
+	clang $(FUZZ_FLAGS) -MMD -MP -c $< -o $@
+build/fuzz/fuzz_%: build/fuzz/tests/fuzz/fuzz_%.o build/fuzz/tests/fuzz/fuzz.o $(OBJ:$(BUILD)/%=build/fuzz/%)
+	clang $(FUZZ_FLAGS) -fsanitize=fuzzer $^ -o $@ $(LIBS)
+
 EMBREE := $(if $(wildcard /usr/include/embree3/rtcore.h),yes)
 $(BUILD)/tests/bench: $(BUILD)/tests/bench.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS) $(if $(EMBREE),-lembree3)
@@ -74,7 +96,8 @@ $(BUILD)/version: .FORCE
 	@mkdir -p $(@D); echo '$(VERSION)' | cmp -s - $@ || echo '$(VERSION)' > $@
 
 -include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d
+-include $(wildcard $(BUILD)/tests/fuzz/*.d build/fuzz/*/*/*.d build/fuzz/*/*.d)
 
-.PHONY: all deps test layers sweep paper bench golden clean help .FORCE
+.PHONY: all deps test fuzz layers sweep paper bench golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:

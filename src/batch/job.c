@@ -309,23 +309,29 @@ size_t job_rows(const struct job *job)
 	return rows;
 }
 
+int job_parse(struct job *job, const char *path, const char *bytes, size_t n, const struct job_options *o, struct err *e)
+{
+	struct job_reader r = { .job = job, .options = o, .values = { .file = path, .mem = &job->mem, .err = e } };
+	const char *slash = strrchr(path, '/');
+	struct yaml_node *root = NULL;
+	*job = (struct job){ 0 };
+	job->text = arena_text(&job->mem, bytes, n);
+	r.folder = arena_text(&job->mem, path, slash ? (size_t)(slash + 1 - path) : 0);
+	if (job->text && r.folder)
+		root = yaml_parse(path, bytes, n, &job->mem, e);
+	else
+		err_memory(e, path);
+	if (root)
+		read_root(&r, root);
+	return e->code ? -1 : 0;
+}
+
 int job_read(struct job *job, const char *path, const struct job_options *o, struct err *e)
 {
 	struct text text = { 0 };
-	struct job_reader r = { .job = job, .options = o, .values = { .file = path, .mem = &job->mem, .err = e } };
 	*job = (struct job){ 0 };
-	if (text_read_file(&text, path, YAML_BYTES, e) == 0) {
-		const char *slash = strrchr(path, '/');
-		job->text = arena_text(&job->mem, text.bytes, text.size);
-		r.folder = arena_text(&job->mem, path, slash ? (size_t)(slash + 1 - path) : 0);
-		struct yaml_node *root = NULL;
-		if (job->text && r.folder)
-			root = yaml_parse(path, text.bytes, text.size, &job->mem, e);
-		else
-			err_memory(e, path);
-		if (root)
-			read_root(&r, root);
-	}
+	if (text_read_file(&text, path, YAML_BYTES, e) == 0)
+		job_parse(job, path, text.bytes, text.size, o, e);
 	text_free(&text);
 	return e->code ? -1 : 0;
 }
