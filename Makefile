@@ -33,11 +33,23 @@ test: $(TESTS) $(FUZZ:%=$(BUILD)/tests/fuzz/replay_%) $(BUILD)/raycost layers ##
 	@set -e; for f in $(FUZZ); do printf 'fuzz, %s: ' $$f; \
 		$(BUILD)/tests/fuzz/replay_$$f tests/fuzz/$$f tests/crashers/$$f 2>$(BUILD)/replay.log || { cat $(BUILD)/replay.log; exit 1; }; done
 	@RAYCOST=$(BUILD)/raycost sh tests/cli.sh
+	@RAYCOST=$(BUILD)/raycost sh tests/shards.sh
+
+faults: $(BUILD)/raycost $(BUILD)/shim.so ## what the world does to a run; KILLS=300 kills it more often
+	@RAYCOST=$(BUILD)/raycost SHIM=$(BUILD)/shim.so bash tests/faults.sh
+
+test-slurm: all ## shards through make, GNU parallel and a Slurm of its own on this machine
+	@RAYCOST=$(BUILD)/raycost bash tests/slurm.sh
+
+coverage: ## lines that the tests run, in percent
+	@$(MAKE) -s BUILD=build/coverage OPT=-O1 CFLAGS=--coverage test faults >build/coverage.log 2>&1 || { tail -20 build/coverage.log; exit 1; }
+	@cd build/coverage && gcov -n $$(find src spd -name '*.gcda') 2>/dev/null | awk -F '[:% ]+' \
+		'/^File/ { own = /src.*[.]c|spd.*[.]c/ } /^Lines/ && own { lines += $$5; run += $$5 * $$3 / 100 } END { printf "%.1f %% of %d lines\n", 100 * run / lines, lines }'
 
 SECONDS ?= 60
 fuzz: $(FUZZ:%=build/fuzz/fuzz_%) ## fuzz every reader for SECONDS=60 in all, under ASan and UBSan (clang with libFuzzer)
 	@set -e; for f in $(FUZZ); do mkdir -p build/fuzz/corpus/$$f tests/crashers/$$f; echo "fuzz, $$f:"; \
-		build/fuzz/fuzz_$$f -max_total_time=$$(($(SECONDS) / $(words $(FUZZ)))) -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
+		build/fuzz/fuzz_$$f -max_total_time=$$(($(SECONDS) / $(words $(FUZZ)) + 1)) -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
 			$$(ls tests/fuzz/$$f.dict 2>/dev/null | sed s/^/-dict=/) -artifact_prefix=tests/crashers/$$f/ build/fuzz/corpus/$$f tests/fuzz/$$f \
 			>build/fuzz/$$f.log 2>&1 || { tail -40 build/fuzz/$$f.log; exit 1; }; \
 		grep -E 'number_of_executed_units|new_units_added|peak_rss' build/fuzz/$$f.log; done; rmdir tests/crashers/* 2>/dev/null || true
@@ -61,7 +73,7 @@ clean: ## remove what was built (not out/)
 	rm -rf build
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/\1|\2/p' Makefile | awk -F '|' '{ printf "make %-8s%s\n", $$1, $$2 }'
+	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/\1|\2/p' Makefile | awk -F '|' '{ printf "make %-11s%s\n", $$1, $$2 }'
 
 $(BUILD)/raycost: $(BUILD)/src/main.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS)
@@ -79,6 +91,10 @@ build/fuzz/%.o: %.c
 	clang $(FUZZ_FLAGS) -MMD -MP -c $< -o $@
 build/fuzz/fuzz_%: build/fuzz/tests/fuzz/fuzz_%.o build/fuzz/tests/fuzz/fuzz.o $(OBJ:$(BUILD)/%=build/fuzz/%)
 	clang $(FUZZ_FLAGS) -fsanitize=fuzzer $^ -o $@ $(LIBS)
+
+$(BUILD)/shim.so: tests/shim.c
+	@mkdir -p $(@D)
+	$(CC) -D_GNU_SOURCE -std=c11 -Wall -Wextra -Werror -O2 -shared -fPIC $< -o $@ -ldl
 
 EMBREE := $(if $(wildcard /usr/include/embree3/rtcore.h),yes)
 $(BUILD)/tests/bench: $(BUILD)/tests/bench.o $(OBJ)
@@ -98,6 +114,6 @@ $(BUILD)/version: .FORCE
 -include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d
 -include $(wildcard $(BUILD)/tests/fuzz/*.d build/fuzz/*/*/*.d build/fuzz/*/*.d)
 
-.PHONY: all deps test fuzz layers sweep paper bench golden clean help .FORCE
+.PHONY: all deps test fuzz faults test-slurm coverage layers sweep paper bench golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
