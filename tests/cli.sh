@@ -138,6 +138,30 @@ expect 0 '' run -o "$work/parts" --shard 0/2 --set size=3
 expect 2 'shards of different jobs' "$raycost" merge "$work/parts"
 expect 2 'there are no shards' "$raycost" merge "$work/t1"
 
+# Images, drawings and the page; killed in the middle they are made again, and a shard's move to where they belong.
+cat >"$work/page.yaml" <<'JOB'
+name: page
+vars: {size: 2}
+scenes: [{spd: tetra, size: "${size}"}, {spd: teapot, size: 1}, {spd: wall}]
+structures: [octree: {max_objects: [2, 5], max_depth: 4}, octree: {criterion: random, runs: 2, max_depth: 3}]
+measure: [{rays: invariant, count: [300, 3000]}, {render: {width: 16, height: 16}}]
+output: {images: true, drawings: true, scenes: true, report: true}
+JOB
+page() { "$raycost" run "$work/page.yaml" "$@"; }
+expect 0 'report.html' page -o "$work/page"
+expect 0 'Every row' cat "$work/page/report.html"
+expect 0 'scenes/tetra-2.nff.gz' sh -c "cd '$work/page' && ls scenes/tetra-2.nff.gz images/wall*.png drawings/tetra-2.dat"
+expect 0 '18 rows, 0 failed' page -o "$work/pages" --shard 1/2
+expect 0 '18 rows, 0 failed' page -o "$work/pages" --shard 0/2
+expect 0 '36 rows of 2 shards' "$raycost" merge "$work/pages"
+same "$work/page/counts.csv" "$work/pages/counts.csv"
+for file in scenes/tetra-2.nff.gz drawings/tetra-2.dat images/tetra-2.png; do same "$work/page/$file" "$work/pages/$file"; done
+expect 0 'report.html' "$raycost" report "$work/pages"
+expect 2 'No such file' "$raycost" report "$work/nowhere"
+expect 0 'primary' "$raycost" render "$work/gears.nff" --width 16 --height 16 -o "$work/gears.png" --max_depth 4
+expect 0 'PNG' head -c 4 "$work/gears.png"
+expect 2 'needs a value' "$raycost" render "$work/gears.nff" --width
+
 # A gate: equal records are good; the report is written before the verdict.
 expect 0 '48 rows compared, 0 missing, 0 new: good' "$raycost" compare "$work/t1" "$work/t2"
 expect 0 'good' "$raycost" compare "$work/t1" "$work/t2" --fail-if rays_per_second:99.9% --fail-if actual:0
