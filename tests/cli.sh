@@ -123,6 +123,16 @@ sed -i 's/name: hall/name: hill/' "$work/hall.yaml"
 expect 0 '2 rows' hall
 expect 1 '' grep -q '^[0-9a-f]*,hall' "$work/hall/counts.csv"
 
+# Memory does not grow with the rows.
+cat >"$work/rows.yaml" <<JOB
+name: rows
+scenes: [{spd: soup, count: 200, seed: [$(seq -s, 1 125)]}]
+structures: [octree: {max_objects: [2, 10], max_depth: 4}]
+measure: [{rays: invariant, count: [2000, 2001]}]
+JOB
+expect 0 '500 rows, 0 failed' "$raycost" run "$work/rows.yaml" -o "$work/rows" --threads 1
+expect 0 'steady' awk -F, 'NR == 51 { early = $NF } NR == 501 && $NF <= 1.05 * early { print "steady" }' "$work/rows/times.csv"
+
 # Shards: what is missing, what is done, and that no other word will do.
 for bad in 3/3 -1/3 1 1/0 /3 1/3x 0x1/3; do expect 2 'not a value' run --shard "$bad"; done
 expect 0 '16 rows, 0 failed' run -o "$work/parts" --shard 1/3

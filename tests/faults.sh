@@ -70,6 +70,7 @@ killed_at_random() {
 }
 
 killed_at_calls() {
+	local -x ASAN_OPTIONS=detect_leaks=0 # which traces, as strace does
 	has strace && strace -qq -o /dev/null true 2>/dev/null || { skip "no strace, or it may not trace: kills at system calls"; return; }
 	for call in openat:3 openat:9 openat:25 openat:40 write:1 write:2 write:5 write:40 fsync:1 fsync:2 fsync:3 fsync:8 rename:1 rename:2 rename:4 rename:8 \
 		close:9 close:30 unlink:1 ftruncate:1 flock:1 mkdir:1 mkdir:2; do

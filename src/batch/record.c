@@ -246,9 +246,12 @@ static int read_old(struct record *r, bool fresh, struct err *e)
 static int start_counts(struct record *r, struct err *e)
 {
 	char path[4096];
+	struct text head = { 0 };
 	make_path(r, "counts.csv", path, sizeof path);
-	row_print_head(&r->done);
-	if (text_write_file(&r->done, path, e) != 0)
+	row_print_head(&head);
+	int status = text_write_file(&head, path, e);
+	text_free(&head);
+	if (status != 0)
 		return -1;
 	r->counts = open(path, O_WRONLY | O_APPEND | O_CLOEXEC | O_NONBLOCK);
 	return r->counts < 0 ? fault(r, "counts.csv", e) : 0;
@@ -310,9 +313,8 @@ static int write_line(const struct record *r, int fd, const char *name, const ch
 /* The next row of counts.csv. */
 static int write_row(struct record *r, const char *line, struct err *e)
 {
-	size_t n = line_length(line);
-	text_add(&r->done, line, n);
-	return r->done.lost ? err_memory(e, "record") : write_line(r, r->counts, "counts.csv", line, n, e);
+	text_print(&r->keys, "%.*s\n", KEY_LENGTH, line);
+	return r->keys.lost ? err_memory(e, "record") : write_line(r, r->counts, "counts.csv", line, line_length(line), e);
 }
 
 int record_keep(struct record *r, const char *line, struct err *e)
@@ -337,7 +339,7 @@ int record_time(struct record *r, const char *line, struct err *e)
 static int list_strangers(const struct record *r, struct text *strangers, struct err *e)
 {
 	struct line_index done;
-	if (line_index_make(&done, &r->done, false, e) != 0)
+	if (line_index_make(&done, &r->keys, false, e) != 0)
 		return -1;
 	for (const char *line = first_line(&r->old.rows); line; line = line_next(line))
 		if (!line_index_find(&done, line))
@@ -366,5 +368,5 @@ void record_close(struct record *r)
 		close(r->lock);
 	free(r->good.lines);
 	old_rows_free(&r->old);
-	text_free(&r->done);
+	text_free(&r->keys);
 }

@@ -32,7 +32,7 @@ struct record {
 	int lock, counts, times;   /* open files, -1 if not */
 	struct old_rows old;       /* what was found; a key has one row */
 	struct line_index good;    /* its rows of status ok */
-	struct text done;          /* all rows of this run in plan order, with the head */
+	struct text keys;          /* of all rows of this run in plan order, a line each */
 	size_t kept, added, failed; /* rows */
 };
 

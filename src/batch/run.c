@@ -306,6 +306,23 @@ static int do_rows(struct run *r)
 	return status == 0 ? record_finish(&r->record, r->err) : -1;
 }
 
+/* What people are told in the end. The rows are read again: hundreds of thousands need not be held all the time. */
+static int summarize(const struct run *r, const struct run_result *result, struct text *table)
+{
+	char path[4096];
+	struct text rows = { 0 };
+	if (r->options->shards) {
+		text_print(table, "%zu rows, %zu failed; see %s/counts.csv\n", result->kept + result->added, result->failed, result->folder);
+		return 0;
+	}
+	snprintf(path, sizeof path, "%s/counts.csv", result->folder);
+	int status = text_read_file(&rows, path, SIZE_MAX, r->err);
+	if (status == 0)
+		summary_print(table, r->job, rows.bytes, result->folder);
+	text_free(&rows);
+	return status;
+}
+
 int run_job(const struct job *job, const struct run_options *o, struct run_result *result, struct text *table, struct err *e)
 {
 	struct run r = { .job = job, .options = o, .rows = job_rows(job), .err = e };
@@ -324,10 +341,8 @@ int run_job(const struct job *job, const struct run_options *o, struct run_resul
 	result->failed = r.record.failed;
 	if (locked && manifest_write(&manifest, result, status == 0 ? (result->failed ? STATUS_PARTIAL : STATUS_DONE) : e->code, e) != 0)
 		status = -1;
-	if (status == 0 && o->shards)
-		text_print(table, "%zu rows, %zu failed; see %s/counts.csv\n", result->kept + result->added, result->failed, result->folder);
-	else if (status == 0)
-		summary_print(table, job, r.record.done.bytes, result->folder);
+	if (status == 0)
+		status = summarize(&r, result, table);
 	plan_free(&r.plan);
 	record_close(&r.record);
 	return status;
