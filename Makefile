@@ -33,7 +33,7 @@ test: $(TESTS) $(FUZZ:%=$(BUILD)/tests/fuzz/replay_%) $(BUILD)/raycost layers ##
 	@set -e; for f in $(FUZZ); do printf 'fuzz, %s: ' $$f; \
 		$(BUILD)/tests/fuzz/replay_$$f tests/fuzz/$$f tests/crashers/$$f 2>$(BUILD)/replay.log || { cat $(BUILD)/replay.log; exit 1; }; done
 	@RAYCOST=$(BUILD)/raycost sh tests/cli.sh
-	@RAYCOST=$(BUILD)/raycost sh tests/shards.sh
+	@$(if $(SAN),,RAYCOST=$(BUILD)/raycost sh tests/shards.sh)
 
 faults: $(BUILD)/raycost $(BUILD)/shim.so ## what the world does to a run; KILLS=300 kills it more often
 	@RAYCOST=$(BUILD)/raycost SHIM=$(BUILD)/shim.so bash tests/faults.sh
