@@ -318,7 +318,7 @@ static int summarize(const struct run *r, const struct run_result *result, struc
 	snprintf(path, sizeof path, "%s/counts.csv", result->folder);
 	int status = text_read_file(&rows, path, SIZE_MAX, r->err);
 	if (status == 0)
-		summary_print(table, r->job, rows.bytes, result->folder);
+		status = summary_print(table, r->job, rows.bytes, result->folder, r->err);
 	text_free(&rows);
 	return status;
 }
