@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-extern const struct cli_command cli_run, cli_plan, cli_merge, cli_compare, cli_history, cli_render, cli_report, cli_spd, cli_info, cli_columns;
+extern const struct cli_command cli_run, cli_plan, cli_merge, cli_compare, cli_history, cli_render, cli_report, cli_spd, cli_info,
+	cli_columns;
 
 const struct cli_command *const cli_commands[] = { &cli_run, &cli_plan, &cli_merge, &cli_compare, &cli_history, &cli_render, &cli_report, &cli_spd,
 	                                               &cli_info, &cli_columns, NULL };

@@ -103,9 +103,10 @@ static void add_quoted(struct text *out, const char *word)
 
 static void fill_plot(struct plot *p, const struct history *h)
 {
-	text_print(&p->script, "set ylabel \"median of %s\" noenhanced\nset xtics rotate by -30 noenhanced\nset key outside right top samplen 1 noenhanced\n"
-	           "set grid linecolor '#dddddd'\nset offsets 0.3, 0.3, graph 0.05, graph 0.05\nplot '%s.dat' using 1:3:xtic(2) with linespoints linewidth 3 "
-	           "linecolor '#000000' title 'all'", h->column, p->name);
+	text_print(&p->script, "set ylabel \"median of %s\" noenhanced\nset xtics rotate by -30 noenhanced\n"
+	           "set key outside right top samplen 1 noenhanced\nset grid linecolor '#dddddd'\n"
+	           "set offsets 0.3, 0.3, graph 0.05, graph 0.05\n"
+	           "plot '%s.dat' using 1:3:xtic(2) with linespoints linewidth 3 linecolor '#000000' title 'all'", h->column, p->name);
 	for (size_t s = 0; s < h->scene_count; s++) {
 		text_print(&p->script, ", '' using 1:%zu with linespoints title ", s + 4);
 		add_quoted(&p->script, h->scenes[s]);
