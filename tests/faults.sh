@@ -94,7 +94,7 @@ signalled() {
 	for signal in INT:130 TERM:143 HUP:129; do
 		env --default-signal "$raycost" run "$work/job.yaml" --set n=20000000 -o "$work/signalled" >/dev/null 2>"$work/stderr" &
 		pid=$!
-		sleep 0.3
+		sleep 0.5
 		start=$(date +%s%N)
 		kill -"${signal%:*}" $pid
 		wait $pid
@@ -166,7 +166,7 @@ limited() {
 }
 
 removed_while_running() {
-	"$raycost" run "$work/job.yaml" --set n=20000000 -o "$work/removed" >/dev/null 2>"$work/stderr" &
+	"$raycost" run "$work/job.yaml" --set n=2000000 -o "$work/removed" >/dev/null 2>"$work/stderr" &
 	local pid=$! start
 	sleep 0.4
 	rm -rf "$work/removed"
