@@ -87,6 +87,7 @@ killed_at_calls() {
 	same "$work/errors"
 	strace -qq -o /dev/null -e inject=flock:error=EAGAIN "$raycost" run "$work/job.yaml" -o "$work/errors" 2>/dev/null
 	[ $? = 75 ] && ok || fault "a lock that is held"
+	try 1 'No locks available' strace -qq -o /dev/null -e inject=flock:error=ENOLCK "$raycost" run "$work/job.yaml" -o "$work/errors"
 }
 
 signalled() {
