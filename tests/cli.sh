@@ -82,6 +82,19 @@ head -c 9000 "$work/t1/counts.csv" >"$work/killed/counts.csv"
 expect 0 '48 rows, 0 failed' run -o "$work/killed"
 same "$work/t1/counts.csv" "$work/killed/counts.csv"
 
+# What another version of the program wrote, of other columns, is set aside whole; the times too.
+mkdir "$work/older"
+printf 'key,scene\n0123456789abcdef,tetra-1\n' >"$work/older/counts.csv"
+printf 'key,seconds\n0123456789abcdef,1\n' >"$work/older/times.csv"
+expect 0 '48 rows, 0 failed' run -o "$work/older"
+same "$work/t1/counts.csv" "$work/older/counts.csv"
+expect 0 '0123456789abcdef,tetra-1' cat "$work/older/counts.old.csv"
+expect 0 '0123456789abcdef,1' cat "$work/older/times.old.csv"
+expect 0 '49 ' wc -l "$work/older/times.csv"
+printf '0123456789abcdef,torn' >>"$work/older/times.csv"
+expect 0 '48 rows, 0 failed' run -o "$work/older"
+expect 0 '49 ' wc -l "$work/older/times.csv"
+
 # Rows of another job are set aside, never mixed in.
 expect 0 '48 rows, 0 failed' run --set size=1,3 -o "$work/killed"
 expect 0 'tetra-2' cat "$work/killed/counts.old.csv"

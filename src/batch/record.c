@@ -257,25 +257,40 @@ static int start_counts(struct record *r, struct err *e)
 	return r->counts < 0 ? fault(r, "counts.csv", e) : 0;
 }
 
+/* How much of times.csv is whole lines; what has another head than today's becomes times.old.csv. */
+static int find_times(const struct record *r, off_t *whole, struct err *e)
+{
+	char path[4096], aside[4096];
+	struct text found = { 0 };
+	struct err own = { 0 };
+	make_path(r, "times.csv", path, sizeof path);
+	make_path(r, "times.old.csv", aside, sizeof aside);
+	*whole = 0;
+	if (access(path, F_OK) != 0)
+		return 0;
+	if (text_read_file(&found, path, SIZE_MAX, &own) != 0)
+		err_at(e, STATUS_ENVIRONMENT, NULL, 0, "%s", own.text);
+	size_t size = found.size, head = sizeof times_head - 1;
+	while (size > 0 && found.bytes[size - 1] != '\n')
+		size--;
+	if (own.code == 0 && size >= head && memcmp(found.bytes, times_head, head) == 0)
+		*whole = (off_t)size;
+	else if (own.code == 0 && size > 0 && rename(path, aside) != 0)
+		own.code = fault(r, "times.old.csv", e);
+	text_free(&found);
+	return own.code ? -1 : 0;
+}
+
 /* times.csv open for lines; a torn last one is cut off. */
 static int start_times(struct record *r, bool fresh, struct err *e)
 {
 	char path[4096];
-	struct text found = { 0 };
-	struct stat info;
+	off_t whole = 0;
 	make_path(r, "times.csv", path, sizeof path);
-	r->times = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | (fresh ? O_TRUNC : 0), 0666);
-	if (r->times < 0 || fstat(r->times, &info) != 0)
-		return fault(r, "times.csv", e);
-	if (info.st_size > 0 && text_read_file(&found, path, SIZE_MAX, e) != 0) {
-		text_free(&found);
+	if (!fresh && find_times(r, &whole, e) != 0)
 		return -1;
-	}
-	size_t whole = found.size;
-	while (whole > 0 && found.bytes[whole - 1] != '\n')
-		whole--;
-	text_free(&found);
-	if (whole < (size_t)info.st_size && ftruncate(r->times, (off_t)whole) != 0)
+	r->times = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666);
+	if (r->times < 0 || ftruncate(r->times, whole) != 0)
 		return fault(r, "times.csv", e);
 	return whole == 0 ? record_time(r, times_head, e) : 0;
 }
