@@ -227,6 +227,14 @@ surroundings() {
 		try '0|1|2|4' '' env LD_PRELOAD="$shim" FAIL_ALLOCATIONS_FROM="$n" "$raycost" run "$work/small.yaml" -o "$work/memory"
 	done
 	"$raycost" run "$work/small.yaml" -o "$work/plenty" >/dev/null
+	"$raycost" run "$work/small.yaml" -o "$work/plenty" --shard 0/1 >/dev/null
+	for n in $(seq 0 7 400); do
+		try '0|1|2|4' '' env LD_PRELOAD="$shim" FAIL_ALLOCATION="$n" "$raycost" plan "$work/small.yaml" -o "$work/plenty" --missing
+		try '0|1|2|4' '' env LD_PRELOAD="$shim" FAIL_ALLOCATION="$n" "$raycost" merge "$work/plenty"
+		try '0|1|2|3' '' env LD_PRELOAD="$shim" FAIL_ALLOCATION="$n" "$raycost" compare "$work/plenty" "$work/memory"
+		try '0|1|2' '' env LD_PRELOAD="$shim" FAIL_ALLOCATION="$n" "$raycost" report "$work/plenty"
+	done
+	"$raycost" merge "$work/plenty" >/dev/null
 	"$raycost" run "$work/small.yaml" -o "$work/memory" >/dev/null
 	cmp -s "$work/plenty/counts.csv" "$work/memory/counts.csv" && ok || fault 'rows after allocations have failed'
 }
