@@ -82,6 +82,13 @@ head -c 9000 "$work/t1/counts.csv" >"$work/killed/counts.csv"
 expect 0 '48 rows, 0 failed' run -o "$work/killed"
 same "$work/t1/counts.csv" "$work/killed/counts.csv"
 
+# After a power cut blocks may be empty: rows with a hole are no rows.
+dd if=/dev/zero of="$work/killed/counts.csv" bs=1 seek=9000 count=700 conv=notrunc 2>/dev/null
+expect 0 '48 rows, 0 failed' run -o "$work/killed"
+same "$work/t1/counts.csv" "$work/killed/counts.csv"
+expect 1 '' grep -q '"rows_added": 0' "$work/killed/manifest.json"
+expect 1 '' test -e "$work/killed/counts.old.csv"
+
 # What another version of the program wrote, of other columns, is set aside whole; the times too.
 mkdir "$work/older"
 printf 'key,scene\n0123456789abcdef,tetra-1\n' >"$work/older/counts.csv"
