@@ -8,7 +8,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-enum { OBJECTS_MOST = 200, POINTS_MOST = 2000, PRIMITIVES_MOST = 400, RAYS = 32, DEPTH_MOST = 5 };
+enum { OBJECTS_MOST = 200, POINTS_MOST = 2000, PRIMITIVES_MOST = 100, RAYS = 32, DEPTH_MOST = 3 };
 
 const char *fuzz_file(const uint8_t *data, size_t n)
 {

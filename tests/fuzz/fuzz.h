@@ -26,7 +26,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n);
 const char *fuzz_file(const uint8_t *data, size_t n);
 
 /* From a scene to its primitives, to every structure there is, to 32 rays that must hit what they hit without a structure. Scenes of
- * more than some hundred primitives are left alone: smaller ones have the same bugs. */
+ * more than a hundred primitives are left alone: smaller ones have the same bugs. */
 void fuzz_scene(const struct scene *s);
 
 #endif
