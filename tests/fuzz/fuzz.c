@@ -51,16 +51,6 @@ static void shoot_both(const struct accel *list, const struct accel *a)
 	ray_source_close(&source);
 }
 
-/* An upper side that is small beside the box's length but not 0: there the search for the root's last plane takes too many steps. */
-static bool is_long_search(const struct box *b)
-{
-	double longest = fmax(b->hi.x - b->lo.x, fmax(b->hi.y - b->lo.y, b->hi.z - b->lo.z));
-	for (int i = 0; i < 3; i++)
-		if (b->hi.a[i] != 0 && fabs(b->hi.a[i]) < longest / 500)
-			return true;
-	return false;
-}
-
 void fuzz_scene(const struct scene *s)
 {
 	_Alignas(16) unsigned char options[ACCEL_OPT_MOST];
@@ -69,7 +59,7 @@ void fuzz_scene(const struct scene *s)
 	struct err e = { 0 };
 	if (s->object_count > OBJECTS_MOST || s->point_count > POINTS_MOST)
 		return;
-	if (primitives_make(&p, s, CURVES_KEEP, 2, "fuzz", &e) == 0 && p.count <= PRIMITIVES_MOST && !is_long_search(&p.bounds)) {
+	if (primitives_make(&p, s, CURVES_KEEP, 2, "fuzz", &e) == 0 && p.count <= PRIMITIVES_MOST) {
 		const struct accel_ops *none = accel_find("list");
 		set_options(none, options);
 		MUST(accel_build(&list, none, options, &p, &e) == 0);
