@@ -4,7 +4,7 @@ OPT     ?= -O3
 BUILD   := build/$(if $(SAN),$(subst $(comma),-,$(SAN)),plain)
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wno-psabi -Werror
 CF       = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(OPT) -g -ffp-contract=off -pthread -Isrc -I. \
-           $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all) $(CFLAGS)
+           $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all) $(SIMD) $(CFLAGS)
 # Libraries that are used where they are installed: fonts and JPEG images of POV-Ray scenes, mesh formats.
 FOUND   := $(foreach p,freetype2 libjpeg assimp,$(shell pkg-config --exists $p 2>/dev/null && echo $p))
 LIBS    := $(if $(filter assimp,$(FOUND)),-lassimp) -lyaml -lpng -lz -lm \
@@ -14,10 +14,16 @@ PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-d
             libjpeg-dev libassimp-dev
 VERSION := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
 
-# Compiled a second time for processors with AVX2, chosen when the program runs.
-WIDE    := $(if $(filter x86_64,$(shell uname -m)),$(BUILD)/src/accel/octree_crowd.avx2.o)
+# Files for wider registers than every processor has; one is compiled a second time. Which are used is decided when the program runs.
+ifeq ($(shell uname -m),x86_64)
+WIDE    := $(BUILD)/src/accel/octree_crowd.avx2.o
+%.avx2.o: SIMD := -mavx2
+%/bvh8_avx2.o: SIMD := -mavx2 -mfma -mbmi -mlzcnt
+%/bvh8_avx512.o: SIMD := -mavx2 -mfma -mbmi -mlzcnt -mavx512f -mavx512vl -mavx512dq
+endif
 OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c)) $(WIDE)
 TESTS   := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
+FUZZ    := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 
 # What SIZE holds reaches the sweep as data: not expanded by make, not read by the shell.
 override SIZE := $(value SIZE)
@@ -33,9 +39,31 @@ deps: ## install what is missing (Debian: apt)
 	root=; [ "$$(id -u)" = 0 ] || root=sudo; \
 	$$root apt-get update -q && $$root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing
 
-test: $(TESTS) $(BUILD)/raycost layers ## run every test; SAN=address,undefined or SAN=thread runs them sanitized
+test: $(TESTS) $(FUZZ:%=$(BUILD)/tests/fuzz/replay_%) $(BUILD)/raycost layers ## run every test; SAN=address,undefined or SAN=thread runs them sanitized
 	@set -e; for t in $(TESTS); do ./$$t; done
+	@set -e; for f in $(FUZZ); do printf 'fuzz, %s: ' $$f; \
+		$(BUILD)/tests/fuzz/replay_$$f tests/fuzz/$$f tests/crashers/$$f 2>$(BUILD)/replay.log || { cat $(BUILD)/replay.log; exit 1; }; done
 	@RAYCOST=$(BUILD)/raycost sh tests/cli.sh
+	@$(if $(SAN),,RAYCOST=$(BUILD)/raycost sh tests/shards.sh)
+
+faults: $(BUILD)/raycost $(BUILD)/shim.so ## what the world does to a run; KILLS=300 kills it more often
+	@RAYCOST=$(BUILD)/raycost SHIM=$(BUILD)/shim.so bash tests/faults.sh
+
+test-slurm: all ## shards through make, GNU parallel and a Slurm of its own on this machine
+	@RAYCOST=$(BUILD)/raycost bash tests/slurm.sh
+
+coverage: ## lines that the tests run, in percent
+	@$(MAKE) -s BUILD=build/coverage OPT=-O1 CFLAGS=--coverage test faults >build/coverage.log 2>&1 || { tail -20 build/coverage.log; exit 1; }
+	@cd build/coverage && gcov -n $$(find src spd -name '*.gcda') 2>/dev/null | awk -F '[:% ]+' \
+		'/^File/ { own = /src.*[.]c|spd.*[.]c/ } /^Lines/ && own { lines += $$5; run += $$5 * $$3 / 100; own = 0 } END { printf "%.1f %% of %d lines\n", 100 * run / lines, lines }'
+
+SECONDS ?= 60
+fuzz: $(FUZZ:%=build/fuzz/fuzz_%) ## fuzz every reader for SECONDS=60 in all, under ASan and UBSan (clang with libFuzzer)
+	@set -e; for f in $(FUZZ); do mkdir -p build/fuzz/corpus/$$f tests/crashers/$$f; echo "fuzz, $$f:"; \
+		build/fuzz/fuzz_$$f -max_total_time=$$(($(SECONDS) / $(words $(FUZZ)) + 1)) -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
+			$$(ls tests/fuzz/$$f.dict 2>/dev/null | sed s/^/-dict=/) -artifact_prefix=tests/crashers/$$f/ build/fuzz/corpus/$$f tests/fuzz/$$f \
+			>build/fuzz/$$f.log 2>&1 || { tail -40 build/fuzz/$$f.log; exit 1; }; \
+		grep -E 'number_of_executed_units|new_units_added|peak_rss' build/fuzz/$$f.log; done; rmdir tests/crashers/* 2>/dev/null || true
 
 layers: ## prove that every folder includes only its own floor and those below
 	@sh tests/layers.sh $(FLOORS)
@@ -66,13 +94,31 @@ clean: ## remove what was built (not out/)
 	rm -rf build
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/\1|\2/p' Makefile | awk -F '|' '{ printf "make %-12s%s\n", $$1, $$2 }'
+	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/\1|\2/p' Makefile | awk -F '|' '{ printf "make %-12s%s\n", $$1, $$2 }'
 
 $(BUILD)/raycost: $(BUILD)/src/main.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS)
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS) -lcmocka
+
+$(BUILD)/tests/fuzz/replay_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/fuzz.o $(BUILD)/tests/fuzz/replay.o $(OBJ)
+	$(CC) $(CF) $^ -o $@ $(LIBS)
+
+FUZZ_FLAGS = -std=c11 -Wno-psabi -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contract=off -pthread -Isrc -I. \
+              -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all $(SIMD)
+build/fuzz/%.o: %.c
+	@mkdir -p $(@D)
+	clang $(FUZZ_FLAGS) -MMD -MP -c $< -o $@
+build/fuzz/%.avx2.o: %.c
+	@mkdir -p $(@D)
+	clang $(FUZZ_FLAGS) -MMD -MP -c $< -o $@
+build/fuzz/fuzz_%: build/fuzz/tests/fuzz/fuzz_%.o build/fuzz/tests/fuzz/fuzz.o $(OBJ:$(BUILD)/%=build/fuzz/%)
+	clang $(FUZZ_FLAGS) -fsanitize=fuzzer $^ -o $@ $(LIBS)
+
+$(BUILD)/shim.so: tests/shim.c
+	@mkdir -p $(@D)
+	$(CC) -D_GNU_SOURCE -std=c11 -Wall -Wextra -Werror -O2 -shared -fPIC $< -o $@ -ldl
 
 EMBREE := $(if $(wildcard /usr/include/embree3/rtcore.h),yes)
 $(BUILD)/tests/bench $(BUILD)/tests/bench_bvh: %: %.o $(OBJ)
@@ -85,7 +131,7 @@ $(BUILD)/tests/check_pov.o: CFLAGS += -D_DEFAULT_SOURCE
 
 $(BUILD)/%.avx2.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(CF) -mavx2 -MMD -MP -c $< -o $@
+	$(CC) $(CF) -MMD -MP -c $< -o $@
 
 $(BUILD)/src/io/mesh_import.o: CFLAGS += $(if $(filter assimp,$(FOUND)),-DHAVE_ASSIMP)
 
@@ -107,7 +153,8 @@ $(BUILD)/version: .FORCE
 	@mkdir -p $(@D); echo '$(VERSION)' | cmp -s - $@ || echo '$(VERSION)' > $@
 
 -include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d $(BUILD)/tests/bench_bvh.d
+-include $(wildcard $(BUILD)/tests/fuzz/*.d build/fuzz/*/*/*.d build/fuzz/*/*.d)
 
-.PHONY: all deps test layers sweep paper hierarchies smits bench check-pov golden clean help .FORCE
+.PHONY: all deps test fuzz faults test-slurm coverage layers sweep paper hierarchies smits bench check-pov golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:

@@ -29,7 +29,9 @@ same() { expect 0 '' cmp "$1" "$2"; }
 # The words it understands.
 expect 0 'raycost run' "$raycost" --help
 expect 0 'raycost ' "$raycost" --version
-for command in run render report spd info view convert columns; do expect 0 "usage: raycost $command" "$raycost" $command --help; done
+for command in run plan merge compare history render report spd info view convert columns; do
+	expect 0 "usage: raycost $command" "$raycost" $command --help
+done
 expect 2 'no command given' "$raycost"
 expect 2 "no command 'fly'" "$raycost" fly
 expect 2 'no job file given' "$raycost" run
@@ -130,10 +132,129 @@ head -c 9000 "$work/t1/counts.csv" >"$work/killed/counts.csv"
 expect 0 '108 rows, 0 failed' run -o "$work/killed"
 same "$work/t1/counts.csv" "$work/killed/counts.csv"
 
+# After a power cut blocks may be empty: rows with a hole are no rows.
+dd if=/dev/zero of="$work/killed/counts.csv" bs=1 seek=9000 count=700 conv=notrunc 2>/dev/null
+expect 0 '108 rows, 0 failed' run -o "$work/killed"
+same "$work/t1/counts.csv" "$work/killed/counts.csv"
+expect 1 '' grep -q '"rows_added": 0' "$work/killed/manifest.json"
+expect 1 '' test -e "$work/killed/counts.old.csv"
+
+# What another version of the program wrote, of other columns, is set aside whole; the times too.
+mkdir "$work/older"
+printf 'key,scene\n0123456789abcdef,tetra-1\n' >"$work/older/counts.csv"
+printf 'key,seconds\n0123456789abcdef,1\n' >"$work/older/times.csv"
+expect 0 '108 rows, 0 failed' run -o "$work/older"
+same "$work/t1/counts.csv" "$work/older/counts.csv"
+expect 0 '0123456789abcdef,tetra-1' cat "$work/older/counts.old.csv"
+expect 0 '0123456789abcdef,1' cat "$work/older/times.old.csv"
+expect 0 '109 ' wc -l "$work/older/times.csv"
+printf '0123456789abcdef,torn' >>"$work/older/times.csv"
+expect 0 '108 rows, 0 failed' run -o "$work/older"
+expect 0 '109 ' wc -l "$work/older/times.csv"
+
 # Rows of another job are set aside, never mixed in.
 expect 0 '108 rows, 0 failed' run --set size=1,3 -o "$work/killed"
 expect 0 'tetra-2' cat "$work/killed/counts.old.csv"
 expect 1 '' grep -q tetra-2 "$work/killed/counts.csv"
+
+# Failed rows are tried again; --fresh does all of them again; a renamed job and a changed scene are other rows.
+cp "$work/gears.nff" "$work/hall.nff"
+cat >"$work/hall.yaml" <<'JOB'
+name: hall
+scenes: [{file: hall.nff, strict: true}]
+structures: [list, octree: {max_depth: 3}]
+measure: [{rays: invariant, count: 1000}]
+output: {scenes: true}
+JOB
+hall() { "$raycost" run "$work/hall.yaml" -o "$work/hall" "$@"; }
+echo mesh >>"$work/hall.nff"
+expect 4 '2 rows, 2 failed' hall
+cp "$work/gears.nff" "$work/hall.nff"
+expect 0 '2 rows, 0 failed' hall
+cp "$work/hall/counts.csv" "$work/hall.csv"
+gzip -dc "$work/hall/scenes/hall.nff.gz" >"$work/kept.before"
+expect 0 '"rows_added": 2' cat "$work/hall/manifest.json"
+expect 0 '2 rows' hall
+expect 0 '"rows_kept": 2' cat "$work/hall/manifest.json"
+expect 0 '2 rows' hall --fresh
+expect 0 '"rows_added": 2' cat "$work/hall/manifest.json"
+same "$work/hall.csv" "$work/hall/counts.csv"
+echo 's 0 0 0 9' >>"$work/hall.nff"
+expect 0 '2 rows' hall
+expect 0 '"rows_added": 2' cat "$work/hall/manifest.json"
+gzip -dc "$work/hall/scenes/hall.nff.gz" >"$work/kept.after"
+expect 1 '' cmp -s "$work/kept.before" "$work/kept.after"
+expect 0 '' sh -c "[ \$(grep -c hall '$work/hall/counts.csv') = 2 ] && [ \$(grep -c ,ok, '$work/hall/counts.old.csv') = 2 ]"
+cp "$work/gears.nff" "$work/hall.nff"
+expect 0 '2 rows' hall
+expect 0 '"rows_kept": 2' cat "$work/hall/manifest.json"
+same "$work/hall.csv" "$work/hall/counts.csv"
+sed -i 's/name: hall/name: hill/' "$work/hall.yaml"
+expect 0 '2 rows' hall
+expect 1 '' grep -q '^[0-9a-f]*,hall' "$work/hall/counts.csv"
+
+# Memory does not grow with the rows.
+cat >"$work/rows.yaml" <<JOB
+name: rows
+scenes: [{spd: soup, count: 200, seed: [$(seq -s, 1 125)]}]
+structures: [octree: {max_objects: [2, 10], max_depth: 4}]
+measure: [{rays: invariant, count: [2000, 2001]}]
+JOB
+expect 0 '500 rows, 0 failed' "$raycost" run "$work/rows.yaml" -o "$work/rows" --threads 1
+expect 0 'steady' awk -F, 'NR == 51 { early = $NF } NR == 501 && $NF <= 1.05 * early { print "steady" }' "$work/rows/times.csv"
+
+# Shards: what is missing, what is done, and that no other word will do.
+for bad in 3/3 -1/3 1 1/0 /3 1/3x 0x1/3; do expect 2 'not a value' run --shard "$bad"; done
+expect 0 '36 rows, 0 failed' run -o "$work/parts" --shard 1/3
+expect 0 '36 rows' "$raycost" plan jobs/smoke.yaml --shard 1/3
+expect 4 '72 rows missing' "$raycost" plan jobs/smoke.yaml --missing -o "$work/parts"
+expect 4 'of 108 rows 0 failed and 72 are missing' "$raycost" merge "$work/parts"
+expect 0 '108 rows, 0 failed' run -o "$work/parts"
+same "$work/t1/counts.csv" "$work/parts/counts.csv"
+expect 0 '0 rows missing' "$raycost" plan jobs/smoke.yaml --missing -o "$work/parts"
+expect 0 '108 rows of 1 shards' "$raycost" merge "$work/parts"
+same "$work/t1/counts.csv" "$work/parts/counts.csv"
+expect 0 '' run -o "$work/parts" --shard 0/2 --set size=3
+expect 2 'shards of different jobs' "$raycost" merge "$work/parts"
+expect 2 'there are no shards' "$raycost" merge "$work/t1"
+
+# Images, drawings and the page; killed in the middle they are made again, and a shard's move to where they belong.
+cat >"$work/page.yaml" <<'JOB'
+name: page
+vars: {size: 2}
+scenes: [{spd: tetra, size: "${size}"}, {spd: teapot, size: 1}, {spd: wall}]
+structures: [octree: {max_objects: [2, 5], max_depth: 4}, octree: {criterion: random, runs: 2, max_depth: 3}]
+measure: [{rays: invariant, count: [300, 3000]}, {render: {width: 16, height: 16}}]
+output: {images: true, drawings: true, scenes: true, report: true}
+JOB
+page() { "$raycost" run "$work/page.yaml" "$@"; }
+expect 0 'report.html' page -o "$work/page"
+expect 0 'Every row' cat "$work/page/report.html"
+expect 0 'scenes/tetra-2.nff.gz' sh -c "cd '$work/page' && ls scenes/tetra-2.nff.gz images/wall*.png drawings/tetra-2.dat"
+expect 0 '18 rows, 0 failed' page -o "$work/pages" --shard 1/2
+expect 0 '18 rows, 0 failed' page -o "$work/pages" --shard 0/2
+expect 0 '36 rows of 2 shards' "$raycost" merge "$work/pages"
+same "$work/page/counts.csv" "$work/pages/counts.csv"
+for file in scenes/tetra-2.nff.gz drawings/tetra-2.dat images/tetra-2.png; do same "$work/page/$file" "$work/pages/$file"; done
+expect 0 'report.html' "$raycost" report "$work/pages"
+expect 2 'No such file' "$raycost" report "$work/nowhere"
+expect 0 'primary' "$raycost" render "$work/gears.nff" --width 16 --height 16 -o "$work/gears.png" --max_depth 4
+expect 0 'PNG' head -c 4 "$work/gears.png"
+expect 2 'needs a value' "$raycost" render "$work/gears.nff" --width
+
+# A gate: equal records are good; the report is written before the verdict.
+expect 0 '108 rows compared, 0 missing, 0 new: good' "$raycost" compare "$work/t1" "$work/t2"
+expect 0 'good' "$raycost" compare "$work/t1" "$work/t2" --fail-if rays_per_second:99.9% --fail-if actual:0
+expect 3 'is worse than' "$raycost" compare "$work/t1" "$work/hall" --format markdown -o "$work/gate.md"
+expect 0 '| fail |' cat "$work/gate.md"
+expect 0 'new: good' "$raycost" compare "$work/t1" "$work/hall" --lenient
+expect 3 'fail,' "$raycost" compare "$work/t1" "$work/hall" --format csv
+expect 2 "no column 'speed'" "$raycost" compare "$work/t1" "$work/t2" --fail-if speed:1%
+expect 2 'not a value' "$raycost" compare "$work/t1" "$work/t2" --fail-if actual
+expect 2 'two folders' "$raycost" compare "$work/t1"
+expect 0 'that all 3 runs have' "$raycost" history "$work/t1/" "$work/t2/" "$work/t7/" "$work" -o "$work"
+expect 0 'history-actual.dat' cat "$work/plots/history-actual.gp"
+expect 2 'no folder' "$raycost" history "$work"
 
 # An ended run says so and goes on later; two runs do not share a folder.
 sed 's/count: 20000/count: 4000000/' jobs/smoke.yaml >"$work/long.yaml"

@@ -1,6 +1,5 @@
 /* bvh8 by AVX2 and FMA. */
 #ifdef __x86_64__
-#pragma GCC target("avx2,fma,bmi,lzcnt")
 #include "accel/quad.h"
 
 #include <immintrin.h>

@@ -1,6 +1,5 @@
 /* bvh8 by AVX-512 on vectors of 256 bits, whose comparisons give masks. */
 #ifdef __x86_64__
-#pragma GCC target("avx2,fma,bmi,lzcnt,avx512f,avx512vl,avx512dq")
 #include "accel/quad.h"
 
 #include <immintrin.h>

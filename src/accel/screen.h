@@ -67,17 +67,15 @@ INLINED lanes screen_pair(const struct screen *s, const struct screen *t, size_t
 /* Eight screens turned into lanes: each of the four numbers at 'offset' becomes a row. */
 INLINED void screen_rows(const struct screen *const *s, size_t offset, lanes *row)
 {
-	const lane_mask low = { 0, 8, 1, 9, 4, 12, 5, 13 }, high = { 2, 10, 3, 11, 6, 14, 7, 15 };
-	const lane_mask even = { 0, 1, 8, 9, 4, 5, 12, 13 }, odd = { 2, 3, 10, 11, 6, 7, 14, 15 };
 	lanes a = screen_pair(s[0], s[4], offset), b = screen_pair(s[1], s[5], offset);
 	lanes c = screen_pair(s[2], s[6], offset), d = screen_pair(s[3], s[7], offset);
-	lanes ab = __builtin_shuffle(a, b, low), cd = __builtin_shuffle(c, d, low);
-	row[0] = __builtin_shuffle(ab, cd, even);
-	row[1] = __builtin_shuffle(ab, cd, odd);
-	ab = __builtin_shuffle(a, b, high);
-	cd = __builtin_shuffle(c, d, high);
-	row[2] = __builtin_shuffle(ab, cd, even);
-	row[3] = __builtin_shuffle(ab, cd, odd);
+	lanes ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13), cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+	row[0] = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
+	row[1] = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
+	ab = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+	cd = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+	row[2] = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
+	row[3] = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
 /* All ones in the lanes whose triangle the ray misses for certain, or hits for certain beyond t = limit. */

@@ -7,7 +7,8 @@ enum status {
 	STATUS_DONE = 0,        /* all that was asked for */
 	STATUS_ENVIRONMENT = 1, /* I/O, disk, memory */
 	STATUS_INPUT = 2,       /* usage, job file or scene refused: nothing ran */
-	STATUS_PARTIAL = 4,     /* finished, but some rows failed */
+	STATUS_WORSE = 3,       /* a comparison's verdict */
+	STATUS_PARTIAL = 4,     /* finished, but some rows failed or are missing */
 	STATUS_BUSY = 75        /* another run holds the output folder */
 };
 

@@ -3,6 +3,7 @@
 #include "batch/job_reader.h"
 #include "io/text.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -32,6 +33,8 @@ int job_append(struct job_reader *r, void **array, size_t *count, size_t *room, 
 {
 	if (*count >= JOB_ROWS_MOST && !r->options->many)
 		return values_fault(&r->values, 0, "more than %d combinations; --many if they are meant", JOB_ROWS_MOST);
+	if (*count >= JOB_ROWS_MANY)
+		return values_fault(&r->values, 0, "more than %d combinations", JOB_ROWS_MANY);
 	if (*count == *room) {
 		size_t want = *room ? *room * 2 : 64;
 		void *grown = arena_grow(&r->job->mem, *array, *count, want, size);
@@ -289,6 +292,8 @@ static void read_root(struct job_reader *r, struct yaml_node *root)
 	size_t rows = job_rows(r->job);
 	if (rows > JOB_ROWS_MOST && !r->options->many)
 		values_fault(&r->values, 0, "%zu rows, more than %d; --many if they are meant", rows, JOB_ROWS_MOST);
+	else if (rows > JOB_ROWS_MANY)
+		values_fault(&r->values, 0, "%zu rows, more than %d", rows, JOB_ROWS_MANY);
 }
 
 size_t job_rows(const struct job *job)
@@ -296,28 +301,37 @@ size_t job_rows(const struct job *job)
 	size_t rows = 0;
 	for (size_t i = 0; i < job->experiment_count; i++) {
 		const struct experiment *x = &job->experiments[i];
-		rows += x->scene_count * x->structure_count * x->measure_count;
+		size_t more;
+		if (__builtin_mul_overflow(x->scene_count, x->structure_count, &more) ||
+		    __builtin_mul_overflow(more, x->measure_count, &more) || __builtin_add_overflow(rows, more, &rows))
+			return SIZE_MAX;
 	}
 	return rows;
+}
+
+int job_parse(struct job *job, const char *path, const char *bytes, size_t n, const struct job_options *o, struct err *e)
+{
+	struct job_reader r = { .job = job, .options = o, .values = { .file = path, .mem = &job->mem, .err = e } };
+	const char *slash = strrchr(path, '/');
+	struct yaml_node *root = NULL;
+	*job = (struct job){ 0 };
+	job->text = arena_text(&job->mem, bytes, n);
+	r.folder = arena_text(&job->mem, path, slash ? (size_t)(slash + 1 - path) : 0);
+	if (job->text && r.folder)
+		root = yaml_parse(path, bytes, n, &job->mem, e);
+	else
+		err_memory(e, path);
+	if (root)
+		read_root(&r, root);
+	return e->code ? -1 : 0;
 }
 
 int job_read(struct job *job, const char *path, const struct job_options *o, struct err *e)
 {
 	struct text text = { 0 };
-	struct job_reader r = { .job = job, .options = o, .values = { .file = path, .mem = &job->mem, .err = e } };
 	*job = (struct job){ 0 };
-	if (text_read_file(&text, path, YAML_BYTES, e) == 0) {
-		const char *slash = strrchr(path, '/');
-		job->text = arena_text(&job->mem, text.bytes, text.size);
-		r.folder = arena_text(&job->mem, path, slash ? (size_t)(slash + 1 - path) : 0);
-		struct yaml_node *root = NULL;
-		if (job->text && r.folder)
-			root = yaml_parse(path, text.bytes, text.size, &job->mem, e);
-		else
-			err_memory(e, path);
-		if (root)
-			read_root(&r, root);
-	}
+	if (text_read_file(&text, path, YAML_BYTES, e) == 0)
+		job_parse(job, path, text.bytes, text.size, o, e);
 	text_free(&text);
 	return e->code ? -1 : 0;
 }

@@ -55,14 +55,19 @@ struct job_options {
 	bool many, allow_outside;
 };
 
-enum { JOB_ROWS_MOST = 100000 };
+/* What a job may come to, and what it may even where many are meant: keys and rows are held in memory. */
+enum { JOB_ROWS_MOST = 100000, JOB_ROWS_MANY = 10000000 };
 
-/* Fill *job (zeroed here) from a file. 0, or -1 and *e: every fault, up to 20, a line each. Free it in any case. */
+/* Fill *job (zeroed here) from the n bytes of a job file; 'path' names it in messages, and its folder is where scene files are looked
+ * for. 0, or -1 and *e: every fault, up to 20, a line each. Free it in any case. */
+int job_parse(struct job *job, const char *path, const char *bytes, size_t n, const struct job_options *o, struct err *e);
+
+/* The same from the file itself. */
 int job_read(struct job *job, const char *path, const struct job_options *o, struct err *e);
 
 void job_free(struct job *job);
 
-/* Combinations in all experiments. */
+/* Combinations in all experiments; SIZE_MAX where they are more. */
 size_t job_rows(const struct job *job);
 
 #endif

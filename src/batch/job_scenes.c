@@ -1,10 +1,12 @@
 /* The scenes of a job: generated families and files, their options and names. */
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "batch/job_reader.h"
 
 #include "scene/tessellate.h"
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -43,6 +45,9 @@ static const char *name_scene(struct job_reader *r)
 			n += (size_t)snprintf(name + n, sizeof name - n, "-resolution-%lld", (long long)s->read.resolution);
 		if (s->read.planes != PLANES_CLIP && n < sizeof name)
 			n += (size_t)snprintf(name + n, sizeof name - n, "-planes-%s", read_planes_words[s->read.planes]);
+		for (char *p = name; *p; p++) /* a line of a table, and a file */
+			if ((unsigned char)*p < 0x20 || *p == 0x7f)
+				*p = '_';
 	} else {
 		int64_t size = s->spd.size == SPD_DEFAULT_SIZE ? s->family->default_size : s->spd.size;
 		n = (size_t)snprintf(name, sizeof name, "%s", s->family->name);
@@ -171,6 +176,17 @@ static bool leads_out(const char *path)
 	return false;
 }
 
+/* Whether a file that is there lies in a folder, symbolic links followed; false, too, where that cannot be told. */
+static bool is_inside(const char *folder, const char *path)
+{
+	char *outer = realpath(*folder ? folder : ".", NULL), *inner = realpath(path, NULL);
+	size_t n = outer ? strlen(outer) : 0;
+	bool inside = outer && inner && strncmp(outer, inner, n) == 0 && (inner[n] == '/' || n == 1);
+	free(outer);
+	free(inner);
+	return inside;
+}
+
 /* The folders of a list, those that are relative taken from the job file's; NULL after a fault. */
 static const char *place_folders(struct job_reader *r, const char *list)
 {
@@ -184,8 +200,13 @@ static const char *place_folders(struct job_reader *r, const char *list)
 			values_fault(&r->values, r->line, "%s lies outside the job file's folder; --allow-outside lets it", folder);
 			return NULL;
 		}
+		size_t before = n + (n > 0);
 		if (n < sizeof out)
 			n += (size_t)snprintf(out + n, sizeof out - n, "%s%s%s", n ? ":" : "", *folder == '/' ? "" : r->folder, folder);
+		if (!r->options->allow_outside && n < sizeof out && access(out + before, F_OK) == 0 && !is_inside(r->folder, out + before)) {
+			values_fault(&r->values, r->line, "%s is a link out of the job file's folder; --allow-outside lets it", folder);
+			return NULL;
+		}
 	}
 	const char *kept = arena_text(&r->job->mem, out, strlen(out));
 	if (!kept)
@@ -205,6 +226,8 @@ static int emit_file(void *ctx)
 	snprintf(path, sizeof path, "%s%s", *given == '/' ? "" : r->folder, given);
 	if (access(path, R_OK) != 0)
 		return values_fault(&r->values, r->line, "%s: %s", path, strerror(errno));
+	if (!r->options->allow_outside && !is_inside(r->folder, path))
+		return values_fault(&r->values, r->line, "%s is a link out of the job file's folder; --allow-outside lets it", given);
 	r->scene.path = arena_text(&r->job->mem, path, strlen(path));
 	int status = r->scene.path ? emit_scene(r) : err_memory(r->values.err, "job");
 	r->scene.path = given;

@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 enum { PATH_MOST = 4096 };
 
@@ -21,12 +20,23 @@ static int make_path(char *path, const char *folder, const char *kind, const cha
 	return 0;
 }
 
-int keep_scene(const char *folder, const char *name, const struct text *nff, bool again, struct err *e)
+/* Whether a file is there and has this content. */
+static bool is_kept(const char *path, const struct text *content)
+{
+	struct text found = { 0 };
+	struct err ignored = { 0 };
+	bool same = text_read_file(&found, path, content->size, &ignored) == 0 && found.size == content->size &&
+	            memcmp(found.bytes, content->bytes, found.size) == 0;
+	text_free(&found);
+	return same;
+}
+
+int keep_scene(const char *folder, const char *name, const struct text *nff, struct err *e)
 {
 	char path[PATH_MOST];
 	if (make_path(path, folder, "scenes", name, ".nff.gz", e) != 0)
 		return -1;
-	return access(path, F_OK) == 0 && !again ? 0 : text_write_file(nff, path, e);
+	return is_kept(path, nff) ? 0 : text_write_file(nff, path, e);
 }
 
 int keep_image(const char *folder, const char *name, size_t number, const struct rendering *image, const struct render_options *o,

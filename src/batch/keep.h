@@ -6,8 +6,8 @@
 #include "io/text.h"
 #include "trace/render.h"
 
-/* scenes/NAME.nff.gz; one that is there stays unless 'again'. All: 0, or -1 and *e. */
-int keep_scene(const char *folder, const char *name, const struct text *nff, bool again, struct err *e);
+/* scenes/NAME.nff.gz; one of the same content stays. All: 0, or -1 and *e. */
+int keep_scene(const char *folder, const char *name, const struct text *nff, struct err *e);
 
 /* images/NAME.png, or NAME-NUMBER.png for a positive number. */
 int keep_image(const char *folder, const char *name, size_t number, const struct rendering *image, const struct render_options *o,

@@ -64,10 +64,19 @@ int manifest_write(const struct manifest *m, const struct run_result *result, in
 	add_string(&t, "compiler", __VERSION__, ",");
 	add_string(&t, "processor", processor, ",");
 	add_string(&t, "start", m->start, ",");
-	add_string(&t, "end", end, ",");
+	if (status < 0)
+		text_print(&t, "  \"end\": null,\n");
+	else
+		add_string(&t, "end", end, ",");
 	text_print(&t, "  \"seed\": %lld,\n  \"threads\": %d,\n", (long long)m->job->seed, m->options->threads);
-	text_print(&t, "  \"rows_kept\": %zu,\n  \"rows_added\": %zu,\n  \"rows_failed\": %zu,\n  \"status\": %d,\n", result->kept,
-	           result->added, result->failed, status);
+	if (m->options->shards)
+		text_print(&t, "  \"shard\": %u,\n  \"shards\": %u,\n", m->options->shard, m->options->shards);
+	text_print(&t, "  \"rows_kept\": %zu,\n  \"rows_added\": %zu,\n  \"rows_failed\": %zu,\n", result->kept, result->added,
+	           result->failed);
+	if (status < 0)
+		text_print(&t, "  \"status\": null,\n");
+	else
+		text_print(&t, "  \"status\": %d,\n", status);
 	add_string(&t, "job", m->job->text, "");
 	text_print(&t, "}\n");
 	snprintf(path, sizeof path, "%s/manifest.json", result->folder);

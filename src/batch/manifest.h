@@ -12,7 +12,8 @@ struct manifest {
 
 void manifest_start(struct manifest *m, const struct job *job, const struct run_options *o);
 
-/* Write it into the output folder. status: of the run. 0, or -1 and *e, if *e holds no earlier error. */
+/* Write it into the output folder. status: of the run, or -1 while it lasts: "end" and "status" are null in the manifest of a run that is
+ * at work, or was killed. 0, or -1 and *e, if *e holds no earlier error. */
 int manifest_write(const struct manifest *m, const struct run_result *result, int status, struct err *e);
 
 #endif

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Part of every key: to be raised when the same inputs give other rows. */
-enum { FORMAT = 4 };
+enum { FORMAT = 5 };
 
 #define AT(field) offsetof(struct row, field)
 #define TEXT(name, text) { #name, COLUMN_TEXT, AT(name), text }
@@ -204,19 +204,32 @@ uint64_t hash_bytes(const char *bytes, size_t count)
 	return hash;
 }
 
+/* Every option that means something, numbers to the last bit. */
+static uint64_t hash_options(uint64_t hash, const struct key *keys, const void *options, const struct accel_ops *ops)
+{
+	for (const struct key *k = keys; k->name; k++) {
+		char value[64];
+		if (ops && !accel_applies(ops, options, k->name))
+			continue;
+		key_print(k, options, value, sizeof value);
+		if (k->type == KEY_REAL)
+			snprintf(value, sizeof value, "%.17g", *(const double *)(const void *)((const char *)options + k->offset));
+		hash = hash_text(hash_text(hash, k->name), value);
+	}
+	return rng_mix(hash);
+}
+
 static uint64_t make_key(const struct job *job, const struct scene_spec *scene, const struct structure_spec *structure,
                          const struct measure_spec *measure, const struct primitives *p, uint64_t text_hash)
 {
-	char text[512];
-	uint64_t hash = rng_mix(FORMAT);
-	structure_print(structure, text, sizeof text);
-	hash = hash_text(hash, text);
-	measure_print(measure, text, sizeof text);
-	hash = hash_text(hash, text);
+	uint64_t hash = hash_text(rng_mix(FORMAT), structure->ops->name);
+	hash = hash_options(hash, structure->ops->keys, structure->options, structure->ops);
+	hash = hash_options(hash, measure_keys(measure), measure, NULL);
 	if (measure->render)
 		hash = rng_mix(hash ^ text_hash);
 	hash = rng_mix(hash ^ (uint64_t)job->seed);
-	hash = hash_text(hash, scene->name);
+	hash = hash_text(hash_text(hash, job->name), scene->name);
+	hash = hash_text(hash, scene->family ? scene->family->name : "");
 	return p ? rng_mix(hash ^ p->hash) : hash;
 }
 

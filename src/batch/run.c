@@ -6,6 +6,7 @@
 #include "batch/keep.h"
 #include "batch/load.h"
 #include "batch/manifest.h"
+#include "batch/plan.h"
 #include "batch/record.h"
 #include "batch/row.h"
 #include "batch/summary.h"
@@ -22,6 +23,8 @@ struct run {
 	const struct job *job;
 	const struct run_options *options;
 	struct record record;
+	struct plan plan; /* of a shard */
+	size_t row, rows; /* the number of the row at hand in the plan; how many are to be done */
 	struct progress progress;
 	struct err *err;
 };
@@ -54,6 +57,12 @@ struct built {
 	bool modelled;
 	struct model model;
 };
+
+/* Whether this run does a row of the plan. */
+static bool is_mine(const struct run *r, size_t row)
+{
+	return r->options->shards == 0 || r->plan.shards[row] == r->options->shard;
+}
 
 static int stopped(const struct run *r)
 {
@@ -181,9 +190,10 @@ static int measure_row(struct run *r, struct row *row, struct bench *bench, stru
 	if (status != 0)
 		return write_failure(r, row, &fault);
 	row_complete(row, &built->accel, m);
-	if (write_row(r, row, false) != 0)
+	/* Times first: a row that is there has its times, however the run ends. */
+	if (write_times(r, row, built, clock_seconds() - start - seconds, seconds) != 0)
 		return -1;
-	return write_times(r, row, built, clock_seconds() - start - seconds, seconds);
+	return write_row(r, row, false);
 }
 
 static int do_row(struct run *r, struct bench *bench, struct built *built, size_t measure)
@@ -218,9 +228,12 @@ static int do_structure(struct run *r, struct bench *bench, const struct structu
 {
 	struct built built = { .structure = structure };
 	int status = 0;
-	for (size_t i = 0; status == 0 && i < bench->experiment->measure_count; i++) {
-		progress_show(&r->progress, r->record.kept + r->record.added, job_rows(r->job), bench->scene->name);
-		status = stopped(r) != 0 ? -1 : do_row(r, bench, &built, i);
+	for (size_t i = 0; status == 0 && i < bench->experiment->measure_count; i++, r->row++) {
+		progress_show(&r->progress, r->record.kept + r->record.added, r->rows, bench->scene->name);
+		if (stopped(r) != 0)
+			status = -1;
+		else if (is_mine(r, r->row))
+			status = do_row(r, bench, &built, i);
 	}
 	if (built.ok)
 		accel_free(&built.accel);
@@ -232,12 +245,19 @@ static int do_scene(struct run *r, const struct experiment *x, const struct scen
 	struct bench bench = { .experiment = x, .scene = scene };
 	struct text text = { 0 };
 	int status = 0;
+	size_t rows = x->structure_count * x->measure_count, mine = 0;
+	for (size_t i = 0; i < rows; i++)
+		mine += is_mine(r, r->row + i);
+	if (mine == 0) {
+		r->row += rows;
+		return 0;
+	}
 	bench.imagings = calloc(x->measure_count, sizeof *bench.imagings);
 	if (!bench.imagings)
 		return err_memory(r->err, "run");
 	bench.loaded = load_scene(&bench.primitives, &bench.setting, &text, scene, &bench.fault) == 0;
 	if (bench.loaded && r->job->save_scenes)
-		status = keep_scene(r->record.folder, scene->name, &text, r->options->fresh, r->err);
+		status = keep_scene(r->record.folder, scene->name, &text, r->err);
 	bench.text_hash = hash_bytes(text.bytes, text.size);
 	text_free(&text);
 	for (size_t i = 0; status == 0 && i < x->structure_count; i++)
@@ -258,23 +278,72 @@ static int do_experiment(struct run *r, const struct experiment *x)
 	return status;
 }
 
+/* Make the plan of a shard, and leave its keys for the merge. */
+static int plan_shard(struct run *r)
+{
+	char path[4096];
+	struct text keys = { 0 };
+	if (plan_make(&r->plan, r->job, r->options->shards, r->options->stop, r->err) != 0)
+		return -1;
+	r->rows = 0;
+	for (size_t i = 0; i < r->plan.count; i++)
+		r->rows += is_mine(r, i);
+	plan_print_keys(&r->plan, &keys);
+	snprintf(path, sizeof path, "%s/plan.csv", r->record.folder);
+	int status = text_write_file(&keys, path, r->err);
+	text_free(&keys);
+	return status;
+}
+
+static void name_folder(struct run_result *result, const struct job *job, const struct run_options *o)
+{
+	char shard[64] = "";
+	if (o->shards)
+		snprintf(shard, sizeof shard, "/shards/%" PRIu32 "-of-%" PRIu32, o->shard, o->shards);
+	if (o->folder)
+		snprintf(result->folder, sizeof result->folder, "%s%s", o->folder, shard);
+	else
+		snprintf(result->folder, sizeof result->folder, "out/%s%s", job->name, shard);
+}
+
+/* Every row of the plan; the folder is open. */
+static int do_rows(struct run *r)
+{
+	int status = r->options->shards ? plan_shard(r) : 0;
+	for (size_t i = 0; status == 0 && i < r->job->experiment_count; i++)
+		status = do_experiment(r, &r->job->experiments[i]);
+	return status == 0 ? record_finish(&r->record, r->err) : -1;
+}
+
+/* What people are told in the end. The rows are read again: hundreds of thousands need not be held all the time. */
+static int summarize(const struct run *r, const struct run_result *result, struct text *table)
+{
+	char path[4096];
+	struct text rows = { 0 };
+	if (r->options->shards) {
+		text_print(table, "%zu rows, %zu failed; see %s/counts.csv\n", result->kept + result->added, result->failed, result->folder);
+		return 0;
+	}
+	snprintf(path, sizeof path, "%s/counts.csv", result->folder);
+	int status = text_read_file(&rows, path, SIZE_MAX, r->err);
+	if (status == 0)
+		status = summary_print(table, r->job, rows.bytes, result->folder, r->err);
+	text_free(&rows);
+	return status;
+}
+
 int run_job(const struct job *job, const struct run_options *o, struct run_result *result, struct text *table, struct err *e)
 {
-	struct run r = { .job = job, .options = o, .err = e };
+	struct run r = { .job = job, .options = o, .rows = job_rows(job), .err = e };
 	struct manifest manifest;
 	*result = (struct run_result){ 0 };
-	if (o->folder)
-		snprintf(result->folder, sizeof result->folder, "%s", o->folder);
-	else
-		snprintf(result->folder, sizeof result->folder, "out/%s", job->name);
+	name_folder(result, job, o);
 	manifest_start(&manifest, job, o);
 	progress_open(&r.progress);
 	int status = record_open(&r.record, result->folder, o->fresh, e);
 	bool locked = status == 0;
-	for (size_t i = 0; status == 0 && i < job->experiment_count; i++)
-		status = do_experiment(&r, &job->experiments[i]);
-	if (status == 0)
-		status = record_finish(&r.record, e);
+	if (locked && (status = manifest_write(&manifest, result, -1, e)) == 0)
+		status = do_rows(&r);
 	progress_close(&r.progress);
 	result->kept = r.record.kept;
 	result->added = r.record.added;
@@ -282,7 +351,8 @@ int run_job(const struct job *job, const struct run_options *o, struct run_resul
 	if (locked && manifest_write(&manifest, result, status == 0 ? (result->failed ? STATUS_PARTIAL : STATUS_DONE) : e->code, e) != 0)
 		status = -1;
 	if (status == 0)
-		summary_print(table, job, r.record.done.bytes, result->folder);
+		status = summarize(&r, result, table);
+	plan_free(&r.plan);
 	record_close(&r.record);
 	return status;
 }

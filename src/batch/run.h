@@ -6,12 +6,14 @@
 #include "io/text.h"
 
 #include <stdatomic.h>
+#include <stdint.h>
 
 struct run_options {
-	const char *folder;       /* output; NULL: out/NAME */
+	const char *folder;       /* output; NULL: out/NAME. A shard's is shards/K-of-N in it */
 	const char *version;      /* of the program, for the manifest */
 	int threads;
 	bool fresh;               /* do everything anew */
+	uint32_t shard, shards;   /* only shard 'shard' of so many; 0 of 0: all rows */
 	const atomic_int *stop; /* becomes the number of a signal that wants the run to end; may be NULL */
 };
 

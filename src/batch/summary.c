@@ -79,52 +79,90 @@ static void print_range(struct text *out, struct range r)
 		text_print(out, "  %-14s", "");
 }
 
-static struct digest digest_scene(const char *rows, const char *scene)
+/* A scene of the job by its name; one that an earlier experiment had comes first. */
+struct named_scene {
+	const char *name;
+	size_t number;
+};
+
+static int compare_scenes(const void *a, const void *b)
+{
+	const struct named_scene *x = a, *y = b;
+	int order = strcmp(x->name, y->name);
+	return order ? order : (x->number > y->number) - (x->number < y->number);
+}
+
+/* The number of the first scene of this name, or 'count'. */
+static size_t find_scene(const struct named_scene *scenes, size_t count, const char *name)
+{
+	size_t low = 0, high = count;
+	while (low < high) {
+		size_t middle = low + (high - low) / 2;
+		if (strcmp(scenes[middle].name, name) < 0)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	return low < count && strcmp(scenes[low].name, name) == 0 ? scenes[low].number : count;
+}
+
+/* A digest of every scene; those that an earlier experiment had get no rows. */
+static void digest_rows(struct digest *digests, struct named_scene *scenes, const struct job *job, const char *rows)
 {
 	const struct range none = { INFINITY, -INFINITY };
-	struct digest d = { .cost = INFINITY, .ratio = none, .exact = none, .overhead = none };
 	char field[600];
-	for (const char *row = strchr(rows, '\n') + 1; *row; row = strchr(row, '\n') + 1)
-		if (csv_field(row, row_column("scene"), field, sizeof field) && strcmp(field, scene) == 0)
-			digest_row(&d, row);
-	return d;
+	for (size_t i = 0; i < job->scene_count; i++) {
+		scenes[i] = (struct named_scene){ job->scenes[i].name, i };
+		digests[i] = (struct digest){ .cost = INFINITY, .ratio = none, .exact = none, .overhead = none };
+	}
+	qsort(scenes, job->scene_count, sizeof *scenes, compare_scenes);
+	for (const char *row = strchr(rows, '\n') + 1; *row; row = strchr(row, '\n') + 1) {
+		csv_field(row, row_column("scene"), field, sizeof field);
+		size_t scene = find_scene(scenes, job->scene_count, field);
+		if (scene < job->scene_count)
+			digest_row(&digests[scene], row);
+	}
 }
 
-/* A scene that an earlier experiment had is in the table already. */
-static bool is_repeated(const struct job *job, size_t scene)
+static void print_scene(struct text *out, const struct digest *d, const char *name, int width)
 {
-	for (size_t i = 0; i < scene; i++)
-		if (strcmp(job->scenes[i].name, job->scenes[scene].name) == 0)
-			return true;
-	return false;
+	text_print(out, "%-*s %9s %5zu", width, name, d->triangles, d->rows);
+	if (d->failed < d->rows)
+		text_print(out, "  %9.3f", d->cost);
+	else
+		text_print(out, "  %9s", "failed");
+	print_range(out, d->ratio);
+	print_range(out, d->exact);
+	print_range(out, d->overhead);
+	text_print(out, "  %5.2f  %s\n", d->worst, d->best);
 }
 
-void summary_print(struct text *out, const struct job *job, const char *rows, const char *folder)
+int summary_print(struct text *out, const struct job *job, const char *rows, const char *folder, struct err *e)
 {
+	struct digest *digests = calloc(job->scene_count, sizeof *digests);
+	struct named_scene *scenes = calloc(job->scene_count, sizeof *scenes);
 	size_t all = 0, failed = 0;
 	double worst = 0;
-	int width = 5;
+	int width = 5, status = digests && scenes ? 0 : err_memory(e, "summary");
 	for (size_t i = 0; i < job->scene_count; i++)
 		width = (int)strlen(job->scenes[i].name) > width ? (int)strlen(job->scenes[i].name) : width;
-	text_print(out, "%-*s %9s %5s  %9s  %-14s  %-14s  %-14s  %5s  %s\n", width, "scene", "triangles", "rows", "best cost",
-	           "ratio", "ratio_exact", "overhead", "|z|", "best variant");
-	for (size_t i = 0; i < job->scene_count; i++) {
-		if (is_repeated(job, i))
-			continue;
-		struct digest d = digest_scene(rows, job->scenes[i].name);
-		text_print(out, "%-*s %9s %5zu", width, job->scenes[i].name, d.triangles, d.rows);
-		if (d.failed < d.rows)
-			text_print(out, "  %9.3f", d.cost);
-		else
-			text_print(out, "  %9s", "failed");
-		print_range(out, d.ratio);
-		print_range(out, d.exact);
-		print_range(out, d.overhead);
-		text_print(out, "  %5.2f  %s\n", d.worst, d.best);
-		all += d.rows;
-		failed += d.failed;
-		worst = fmax(worst, d.worst);
+	if (status == 0) {
+		digest_rows(digests, scenes, job, rows);
+		text_print(out, "%-*s %9s %5s  %9s  %-14s  %-14s  %-14s  %5s  %s\n", width, "scene", "triangles", "rows", "best cost",
+		           "ratio", "ratio_exact", "overhead", "|z|", "best variant");
 	}
-	text_print(out, "%zu rows, %zu failed; largest deviation from an exact prediction: %.2f standard errors; see %s/counts.csv\n",
-	           all, failed, worst, folder);
+	for (size_t i = 0; status == 0 && i < job->scene_count; i++) {
+		if (find_scene(scenes, job->scene_count, job->scenes[i].name) != i)
+			continue;
+		print_scene(out, &digests[i], job->scenes[i].name, width);
+		all += digests[i].rows;
+		failed += digests[i].failed;
+		worst = fmax(worst, digests[i].worst);
+	}
+	if (status == 0)
+		text_print(out, "%zu rows, %zu failed; largest deviation from an exact prediction: %.2f standard errors; see %s/counts.csv\n",
+		           all, failed, worst, folder);
+	free(digests);
+	free(scenes);
+	return status;
 }

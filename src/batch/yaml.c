@@ -199,7 +199,7 @@ struct yaml_node *yaml_parse(const char *name, const char *text, size_t n, struc
 
 const struct yaml_node *yaml_find(const struct yaml_node *map, const char *key)
 {
-	for (const struct yaml_node *entry = map ? map->first : NULL; entry; entry = entry->next)
+	for (const struct yaml_node *entry = map && map->kind == YAML_MAP ? map->first : NULL; entry; entry = entry->next)
 		if (strcmp(entry->key, key) == 0)
 			return entry;
 	return NULL;

@@ -26,7 +26,7 @@ struct yaml_node {
  * "name:line: message" when it is not YAML or more than allowed. */
 struct yaml_node *yaml_parse(const char *name, const char *text, size_t n, struct arena *mem, struct err *e);
 
-/* The entry of a map called 'key', or NULL. */
+/* The entry of a map called 'key', or NULL; so, too, where it is no map. */
 const struct yaml_node *yaml_find(const struct yaml_node *map, const char *key);
 
 #endif

@@ -1,5 +1,7 @@
 #include "cli/cli.h"
 
+#include "batch/plan.h"
+
 #include <errno.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -7,10 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-extern const struct cli_command cli_run, cli_render, cli_report, cli_spd, cli_info, cli_view, cli_convert, cli_columns;
+extern const struct cli_command cli_run, cli_plan, cli_merge, cli_compare, cli_history, cli_render, cli_report, cli_spd, cli_info, cli_view,
+	cli_convert, cli_columns;
 
-const struct cli_command *const cli_commands[] = { &cli_run,  &cli_render,  &cli_report,  &cli_spd, &cli_info,
-	                                           &cli_view, &cli_convert, &cli_columns, NULL };
+const struct cli_command *const cli_commands[] = {
+	&cli_run, &cli_plan, &cli_merge, &cli_compare, &cli_history, &cli_render, &cli_report,
+	&cli_spd, &cli_info, &cli_view, &cli_convert, &cli_columns, NULL
+};
 
 int cli_usage(struct err *e, const char *command, const char *fmt, ...)
 {
@@ -29,6 +34,22 @@ bool cli_integer(const char *text, long long low, long long high, long long *out
 	errno = 0;
 	*out = strtoll(text, &end, 10);
 	return end != text && *end == '\0' && errno == 0 && *out >= low && *out <= high;
+}
+
+bool cli_shard(const char *text, uint32_t *shard, uint32_t *shards)
+{
+	char first[16];
+	size_t n = strcspn(text, "/");
+	long long k, count;
+	if (n == 0 || n >= sizeof first || text[n] != '/')
+		return false;
+	memcpy(first, text, n);
+	first[n] = '\0';
+	if (!cli_integer(text + n + 1, 1, SHARDS_MOST, &count) || !cli_integer(first, 0, count - 1, &k))
+		return false;
+	*shard = (uint32_t)k;
+	*shards = (uint32_t)count;
+	return true;
 }
 
 bool cli_set_key(const struct key *k, const char *text, void *target)
@@ -74,7 +95,7 @@ static void print_help(struct cli *cli)
 	for (const struct cli_command *const *c = cli_commands; *c; c++)
 		text_print(&cli->out, "  raycost %-8s %s\n", (*c)->name, (*c)->text);
 	text_print(&cli->out, "\n'raycost COMMAND --help' explains a command; 'raycost --version' tells the version.\n"
-	                      "Exit status: 0 done, 1 environment, 2 refused, 4 some rows failed, 75 folder in use, 128+n signal n.\n");
+	                      "Exit status: 0 done, 1 environment, 2 refused, 3 worse, 4 rows failed or missing, 75 folder in use, 128+n signal n.\n");
 }
 
 static bool is_help(const char *word)

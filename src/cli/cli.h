@@ -8,6 +8,7 @@
 
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 /* What every subcommand is given. */
 struct cli {
@@ -34,6 +35,9 @@ int cli_usage(struct err *e, const char *command, const char *fmt, ...);
 
 /* A whole number from low to high; false if it is none. */
 bool cli_integer(const char *text, long long low, long long high, long long *out);
+
+/* "K/N", shard K (0 .. N - 1) of N; false if it is not that. */
+bool cli_shard(const char *text, uint32_t *shard, uint32_t *shards);
 
 /* Store a word of the command line at its key's place in the struct 'target'; false if it is no value the key can have. */
 bool cli_set_key(const struct key *k, const char *text, void *target);

@@ -15,6 +15,7 @@ static const char help[] =
 	"  --set NAME=VALUE[,VALUE]  override a variable of the job's vars; may be repeated\n"
 	"  -o DIR                    output folder instead of out/NAME\n"
 	"  --threads N               threads (default: all processors); the results do not depend on it\n"
+	"  --shard K/N               only shard K (0 .. N-1) of N, into shards/K-of-N below the output folder; see raycost merge\n"
 	"  --dry-run                 print the rows and run nothing\n"
 	"  --fresh                   do all rows anew\n"
 	"  --many                    more than 100,000 rows are meant\n"
@@ -41,7 +42,8 @@ static int parse(struct arguments *a, int count, char **words, struct err *e)
 {
 	for (int i = 0; i < count; i++) {
 		const char *word = words[i], *value = NULL;
-		bool takes = strcmp(word, "--set") == 0 || strcmp(word, "-o") == 0 || strcmp(word, "--threads") == 0;
+		bool takes = strcmp(word, "--set") == 0 || strcmp(word, "-o") == 0 || strcmp(word, "--threads") == 0 ||
+		             strcmp(word, "--shard") == 0;
 		if (takes && !(value = value_of(count, words, &i, e)))
 			return STATUS_INPUT;
 		long long n;
@@ -51,6 +53,8 @@ static int parse(struct arguments *a, int count, char **words, struct err *e)
 			a->run.folder = value;
 		else if (strcmp(word, "--threads") == 0 && cli_integer(value, 1, 256, &n))
 			a->run.threads = (int)n;
+		else if (strcmp(word, "--shard") == 0 && cli_shard(value, &a->run.shard, &a->run.shards))
+			continue;
 		else if (strcmp(word, "--dry-run") == 0)
 			a->dry_run = true;
 		else if (strcmp(word, "--fresh") == 0)
@@ -100,7 +104,7 @@ static int run(struct cli *cli, int count, char **words, struct err *e)
 		print_plan(&cli->out, &job);
 	else if (run_job(&job, &a.run, &result, &cli->out, e) != 0)
 		status = e->code;
-	else if (job.report && report_write(result.folder, &cli->out, e) != 0)
+	else if (job.report && !a.run.shards && report_write(result.folder, &cli->out, e) != 0)
 		status = e->code;
 	else if (result.failed)
 		status = STATUS_PARTIAL;

@@ -71,13 +71,18 @@ static int report_gz(gzFile f, const char *path, struct err *e)
 	return err_at(e, STATUS_INPUT, path, 0, "damaged or truncated gzip");
 }
 
-static int read_all(struct text *t, gzFile f, const char *path, size_t limit, struct err *e)
+/* Scenes as text shrink to a fifth or a twentieth; a gzip file made to fill the memory, to a thousandth. */
+enum { RATIO_MOST = 100, SMALL = 64 << 20 };
+
+static int read_all(struct text *t, gzFile f, const char *path, size_t limit, size_t packed, struct err *e)
 {
 	char piece[65536];
 	int n;
 	while ((n = gzread(f, piece, sizeof piece)) > 0) {
 		if (t->size + (size_t)n > limit)
 			return err_at(e, STATUS_INPUT, path, 0, "more than %zu bytes of content", limit);
+		if (t->size > SMALL && t->size / RATIO_MOST > packed)
+			return err_at(e, STATUS_INPUT, path, 0, "unpacks to more than %d times its size", RATIO_MOST);
 		text_add(t, piece, (size_t)n);
 		if (t->lost)
 			return err_memory(e, path);
@@ -105,7 +110,7 @@ int text_read_file(struct text *t, const char *path, size_t limit, struct err *e
 		return err_memory(e, path);
 	}
 	text_add(t, "", 0);
-	int status = read_all(t, f, path, limit, e);
+	int status = read_all(t, f, path, limit, (size_t)info.st_size, e);
 	int closed = gzclose(f);
 	if (status == 0 && closed != Z_OK)
 		status = err_at(e, STATUS_INPUT, path, 0, "damaged or truncated gzip");

@@ -21,7 +21,7 @@ void text_add(struct text *t, const char *bytes, size_t n);
 void text_free(struct text *t);
 
 /* Read a whole file, gunzipped if it is gzipped, at most 'limit' bytes of content. 0, or -1 and *e: cannot open (STATUS_INPUT),
- * truncated or damaged gzip, larger than limit, not a regular file. */
+ * truncated or damaged gzip, larger than limit, beyond 64 MiB and a hundred times the packed size, not a regular file. */
 int text_read_file(struct text *t, const char *path, size_t limit, struct err *e);
 
 /* Write a file whole or not at all: beside it, fsync, rename. A path that ends in .gz is gzipped, with no name or time inside
