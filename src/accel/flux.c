@@ -1,16 +1,11 @@
 #include "accel/flux.h"
 
-int flux_open(struct flux *f, const struct box *root, int level, struct err *e)
+int flux_open(struct flux *f, const struct box *root, struct err *e)
 {
-	*f = (struct flux){ .root = *root, .side = 1 << level };
-	f->step = vec_scale(vec_sub(root->hi, root->lo), 1.0 / f->side);
-	size_t nodes = (size_t)f->side + 1;
-	nodes *= nodes * nodes;
-	uint32_t **tables[] = { &f->crossings[0], &f->crossings[1], &f->crossings[2], &f->ends[FLUX_FREE], &f->ends[FLUX_ON_SURFACE] };
-	for (size_t i = 0; i < sizeof tables / sizeof *tables; i++)
-		if (!(*tables[i] = NEW(&f->mem, uint32_t, nodes)))
-			return err_memory(e, "flux");
-	return 0;
+	const size_t side = FLUX_SIDE + 1;
+	*f = (struct flux){ .root = *root, .step = vec_scale(vec_sub(root->hi, root->lo), 1.0 / FLUX_SIDE) };
+	f->voxels = NEW(&f->mem, struct flux_voxel, side * side * side);
+	return f->voxels ? 0 : err_memory(e, "flux");
 }
 
 void flux_close(struct flux *f)
@@ -19,97 +14,79 @@ void flux_close(struct flux *f)
 	*f = (struct flux){ 0 };
 }
 
-static size_t node(const struct flux *f, int32_t x, int32_t y, int32_t z)
-{
-	size_t row = (size_t)f->side + 1;
-	return ((size_t)z * row + (size_t)y) * row + (size_t)x;
-}
-
-void flux_add_crossing(struct flux *f, int axis, const int32_t at[3])
-{
-	f->crossings[axis][node(f, at[0] + (axis != 0), at[1] + (axis != 1), at[2] + (axis != 2))]++;
-}
-
-void flux_add_end(struct flux *f, enum flux_end kind, const int32_t at[3])
-{
-	f->ends[kind][node(f, at[0] + 1, at[1] + 1, at[2] + 1)]++;
-}
-
-/* Let every node hold the sum over those up to it along an axis. */
-static void sum_along(const struct flux *f, uint32_t *table, int axis)
-{
-	size_t row = (size_t)f->side + 1, all = row * row * row, stride = axis == 0 ? 1 : axis == 1 ? row : row * row;
-	for (size_t i = stride; i < all; i++)
-		if (i / stride % row != 0)
-			table[i] += table[i - stride];
-}
-
-void flux_seal(struct flux *f)
-{
-	for (int axis = 0; axis < 3; axis++) {
-		for (int across = 0; across < 3; across++)
-			if (across != axis)
-				sum_along(f, f->crossings[across], axis);
-		for (int kind = 0; kind < FLUX_ENDS; kind++)
-			sum_along(f, f->ends[kind], axis);
-	}
-}
-
 struct box flux_place(const struct flux *f, const struct box *b)
 {
 	struct box placed;
 	for (int i = 0; i < 3; i++) {
 		placed.lo.a[i] = fmax(0, (b->lo.a[i] - f->root.lo.a[i]) / f->step.a[i]);
-		placed.hi.a[i] = fmin(f->side, (b->hi.a[i] - f->root.lo.a[i]) / f->step.a[i]);
+		placed.hi.a[i] = fmin(FLUX_SIDE, (b->hi.a[i] - f->root.lo.a[i]) / f->step.a[i]);
 	}
 	return placed;
 }
 
-/* A table's value at a point between nodes, linear along every axis. */
-static double value_at(const struct flux *f, const uint32_t *table, struct vec p)
+/* Voxels along an axis: first .. end - 1. */
+struct stretch {
+	int32_t first, end;
+};
+
+/* Those that low .. high reaches into. */
+static struct stretch stretch_of(double low, double high)
 {
+	return (struct stretch){ (int32_t)low, (int32_t)ceil(high) };
+}
+
+/* How much of voxel i lies in low .. high. */
+static double share_of(int32_t i, double low, double high)
+{
+	return fmin(high, i + 1) - fmax(low, i);
+}
+
+static void add_scaled(double sum[FLUX_GROUPS], const uint32_t counts[FLUX_GROUPS], double weight)
+{
+	for (int g = 0; g < FLUX_GROUPS; g++)
+		sum[g] += weight * counts[g];
+}
+
+/* Crossings of grid plane 'plane' across an axis, as far as it is seen through the box along that axis. */
+static void add_plane(const struct flux *f, const struct box *b, int axis, int32_t plane, double weight, double sum[FLUX_GROUPS])
+{
+	int u = (axis + 1) % 3, v = (axis + 2) % 3;
+	struct stretch across = stretch_of(b->lo.a[u], b->hi.a[u]), along = stretch_of(b->lo.a[v], b->hi.a[v]);
 	int32_t at[3];
-	double part[3];
-	for (int i = 0; i < 3; i++) {
-		at[i] = p.a[i] < f->side - 1 ? (int32_t)p.a[i] : f->side - 1;
-		part[i] = p.a[i] - at[i];
+	at[axis] = plane;
+	for (at[v] = along.first; at[v] < along.end; at[v]++) {
+		double part = weight * share_of(at[v], b->lo.a[v], b->hi.a[v]);
+		for (at[u] = across.first; at[u] < across.end; at[u]++)
+			add_scaled(sum, f->voxels[flux_at(at)].crossings[axis], part * share_of(at[u], b->lo.a[u], b->hi.a[u]));
 	}
-	size_t row = (size_t)f->side + 1, first = node(f, at[0], at[1], at[2]);
-	double along[2][2];
-	for (size_t k = 0; k < 4; k++) {
-		const uint32_t *pair = &table[first + k / 2 * row * row + k % 2 * row];
-		along[k / 2][k % 2] = pair[0] + part[0] * ((double)pair[1] - pair[0]);
-	}
-	double low = along[0][0] + part[1] * (along[0][1] - along[0][0]), high = along[1][0] + part[1] * (along[1][1] - along[1][0]);
-	return low + part[2] * (high - low);
 }
 
-/* A corner of a box: its upper side along axis i where bit i is set. */
-static struct vec corner(const struct box *b, int bits)
+void flux_crossings(const struct flux *f, const struct box *b, double sum[FLUX_GROUPS])
 {
-	return vec(bits & 1 ? b->hi.x : b->lo.x, bits & 2 ? b->hi.y : b->lo.y, bits & 4 ? b->hi.z : b->lo.z);
-}
-
-double flux_crossings(const struct flux *f, const struct box *b)
-{
-	double sum = 0;
+	for (int g = 0; g < FLUX_GROUPS; g++)
+		sum[g] = 0;
 	for (int axis = 0; axis < 3; axis++)
-		for (int bits = 0; bits < 8; bits++) {
-			/* Within a face, the corners that are upper along one side only are taken away. */
-			int uppers = 0;
-			for (int i = 0; i < 3; i++)
-				uppers += i != axis && bits >> i & 1;
-			sum += (uppers == 1 ? -1 : 1) * value_at(f, f->crossings[axis], corner(b, bits));
+		for (int upper = 0; upper < 2; upper++) {
+			double x = upper ? b->hi.a[axis] : b->lo.a[axis];
+			int32_t plane = (int32_t)x;
+			add_plane(f, b, axis, plane, plane + 1 - x, sum);
+			if (x > plane)
+				add_plane(f, b, axis, plane + 1, x - plane, sum);
 		}
-	return sum;
 }
 
-double flux_ends(const struct flux *f, enum flux_end kind, const struct box *b)
+void flux_ends(const struct flux *f, enum flux_end kind, const struct box *b, double sum[FLUX_GROUPS])
 {
-	double sum = 0;
-	for (int bits = 0; bits < 8; bits++) {
-		int lowers = !(bits & 1) + !(bits & 2) + !(bits & 4);
-		sum += (lowers % 2 ? -1 : 1) * value_at(f, f->ends[kind], corner(b, bits));
-	}
-	return sum;
+	struct stretch s[3];
+	int32_t at[3];
+	for (int g = 0; g < FLUX_GROUPS; g++)
+		sum[g] = 0;
+	for (int i = 0; i < 3; i++)
+		s[i] = stretch_of(b->lo.a[i], b->hi.a[i]);
+	for (at[2] = s[2].first; at[2] < s[2].end; at[2]++)
+		for (at[1] = s[1].first; at[1] < s[1].end; at[1]++) {
+			double part = share_of(at[2], b->lo.z, b->hi.z) * share_of(at[1], b->lo.y, b->hi.y);
+			for (at[0] = s[0].first; at[0] < s[0].end; at[0]++)
+				add_scaled(sum, f->voxels[flux_at(at)].ends[kind], part * share_of(at[0], b->lo.x, b->hi.x));
+		}
 }

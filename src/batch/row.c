@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Part of every key: to be raised when the same inputs give other rows. */
-enum { FORMAT = 3 };
+enum { FORMAT = 4 };
 
 #define AT(field) offsetof(struct row, field)
 #define TEXT(name, text) { #name, COLUMN_TEXT, AT(name), text }
@@ -74,8 +74,8 @@ const struct column row_columns[] = {
 	REAL("replay", replay.mean, "image: cost a ray of the pilot's rays in this structure"),
 	REAL("replay_low", replay.low, "lower end of its 95 % interval, by bootstrap over the pilot's pixels"),
 	REAL("replay_high", replay.high, "upper end of it"),
-	REAL("calibrated", calibrated.mean, "image: predicted_exact times the ratio the pilot has in one reference octree"),
-	REAL("calibrated_low", calibrated.low, "lower end of its 95 % interval"),
+	REAL("calibrated", calibrated.mean, "image: cost a ray from the flux of the pilot's rays through a grid and the cells of this structure"),
+	REAL("calibrated_low", calibrated.low, "lower end of its 95 % interval, by groups of the pilot's pixels"),
 	REAL("calibrated_high", calibrated.high, "upper end of it"),
 	REAL("predicted_leaves", predicted.leaves, "expected leaves visited a ray"),
 	REAL("predicted_tests", predicted.tests, "expected ray-primitive tests a ray"),

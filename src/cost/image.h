@@ -4,10 +4,12 @@
 
 #include "accel/accel.h"
 #include "accel/flux.h"
+#include "base/estimate.h"
 
-/* The cost a ray, over those that visit a cell of structure a, whose leaves are boxes and whose root is that of f (sealed): alpha a
- * leaf, beta a primitive in its list. NAN where no ray visits the root. Exact for the segments counted in f where every leaf is
- * made of voxels; inside a voxel ends on surfaces are shared in proportion to the surface in the leaves. 0, or -1 and *e (memory). */
-int image_predict(double *cost, const struct flux *f, const struct accel *a, double alpha, double beta, struct err *e);
+/* The cost a ray, over those that visit a cell of structure a, whose leaves are boxes and whose root is that of f: alpha a leaf,
+ * beta a primitive in its list. NAN where no ray visits the root. Exact for the segments counted in f if every leaf is made of
+ * voxels. Inside a voxel, ends of segments on surfaces are shared in proportion to the surface in its leaves.
+ * The interval is for f's groups as samples of more segments of their kind: a ratio of means, Student's t. 0, or -1 and *e (memory). */
+int cost_predict_image(struct estimate *out, const struct flux *f, const struct accel *a, double alpha, double beta, struct err *e);
 
 #endif

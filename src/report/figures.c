@@ -199,8 +199,8 @@ const struct figure figures[] = {
 	  fill_chance },
 	{ "replay", "Rendering: a pilot image replayed, over actual cost",
 	  "The pilot's few rays walked through every tree without testing a primitive, random octrees included.", fill_replay },
-	{ "calibrated", "Rendering: the exact predictor calibrated on one tree, over actual cost",
-	  "The cost under random rays times the ratio that the pilot has in one reference octree: no ray at all for any other tree.",
+	{ "calibrated", "Rendering: the predictor calibrated by the flux of a pilot image, over actual cost",
+	  "The pilot's rays counted once on a grid of 64 x 64 x 64; from then on a sum over the cells of a tree, and no ray at all.",
 	  fill_calibrated },
 	{ 0 }
 };
