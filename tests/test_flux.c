@@ -252,7 +252,14 @@ static void images_cost_what_a_replay_counts(void **state)
 	}
 }
 
-/* Rays that all do the same leave no doubt; none at all, no number. */
+/* One leaf that is not all of its box. */
+static int list_wedge(const struct accel *a, cell_fn *fn, void *ctx)
+{
+	const struct cell c = { .bounds = a->root, .area = 0.9 * box_area(&a->root), .leaf = true };
+	return fn(ctx, &c);
+}
+
+/* Rays that all do the same leave no doubt; none at all, no number; nor cells that are no boxes. */
 static void intervals_are_as_wide_as_the_groups_differ(void **state)
 {
 	(void)state;
@@ -272,6 +279,11 @@ static void intervals_are_as_wide_as_the_groups_differ(void **state)
 	assert_true(cost.mean >= ALPHA);
 	assert_near(cost.low, cost.mean, 1e-9 * cost.mean);
 	assert_near(cost.high, cost.mean, 1e-9 * cost.mean);
+	struct accel_ops wedges = *a.ops;
+	struct accel wedge = a;
+	wedges.cells = list_wedge;
+	wedge.ops = &wedges;
+	assert_true(isnan(predict(&f, &wedge).mean));
 	flux_close(&f);
 	f = count_flux(&a, same, 0);
 	cost = predict(&f, &a);

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-/* Sides of boxes, in voxels, are known to about this. */
+/* Sides of boxes in voxels, and areas over each other, are known better than this. */
 static const double rounding = 1e-6;
 
 struct image_sums {
@@ -15,6 +15,7 @@ struct image_sums {
 	/* Surface in the leaves inside voxels on whose surfaces segments end: of every leaf, in the order of the cells, and by voxel. */
 	double *leaf_areas, *voxel_areas;
 	size_t leaf;
+	bool boxes; /* all leaves so far are */
 	double cost[FLUX_GROUPS];
 };
 
@@ -80,6 +81,7 @@ static int add_leaf(void *ctx, const struct cell *c)
 	double crossings[FLUX_GROUPS], free_ends[FLUX_GROUPS], surface_ends[FLUX_GROUPS];
 	if (!c->leaf)
 		return 0;
+	s->boxes = s->boxes && c->area > (1 - rounding) * box_area(&c->bounds);
 	struct box b = flux_place(s->flux, &c->bounds);
 	flux_crossings(s->flux, &b, crossings);
 	flux_ends(s->flux, FLUX_FREE, &b, free_ends);
@@ -111,7 +113,7 @@ static struct estimate estimate_of(const double cost[FLUX_GROUPS], const uint64_
 
 int cost_predict_image(struct estimate *out, const struct flux *f, const struct accel *a, double alpha, double beta, struct err *e)
 {
-	struct image_sums s = { .flux = f, .accel = a, .err = e, .alpha = alpha, .beta = beta };
+	struct image_sums s = { .flux = f, .accel = a, .err = e, .alpha = alpha, .beta = beta, .boxes = true };
 	const int32_t most[3] = { FLUX_SIDE, FLUX_SIDE, FLUX_SIDE };
 	s.leaf_areas = calloc(a->leaves, sizeof *s.leaf_areas);
 	s.voxel_areas = calloc(flux_at(most) + 1, sizeof *s.voxel_areas);
@@ -119,7 +121,7 @@ int cost_predict_image(struct estimate *out, const struct flux *f, const struct 
 	s.leaf = 0;
 	if (status == 0)
 		status = a->ops->cells(a, add_leaf, &s);
-	*out = estimate_of(s.cost, f->segments);
+	*out = s.boxes ? estimate_of(s.cost, f->segments) : (struct estimate){ NAN, NAN, NAN };
 	free(s.leaf_areas);
 	free(s.voxel_areas);
 	return status;

@@ -127,7 +127,7 @@ static bool fill_calibrated(struct plot *p, const struct table *t, const char *f
 {
 	(void)folder;
 	struct scatter s = { .x_label = "actual cost a ray", .y_label = "calibrated / actual", .log_x = true };
-	scatter_band(&s, 0.75, 1.25, "aim: 0.75 .. 1.25");
+	scatter_band(&s, 0.9, 1.1, "aim: 0.9 .. 1.1");
 	add_rows(&s, t, &(struct view){ rows_is_image_of_any_tree, "actual", "ratio_calibrated", rows_name_surface });
 	return finish(&s, p);
 }
