@@ -45,9 +45,9 @@ static void count_crossing(const struct passage *w, int axis, bool ahead)
 	w->flux->voxels[flux_at(at)].crossings[axis][w->group]++;
 }
 
-/* Count the start, or the side of the root through which the segment comes in: of those it starts on or outside of, the last. One
- * that starts on a surface in a side of the root starts there, and one that comes in where it ends has no way to be interpolated:
- * it has both its ends on that surface. */
+/* Count the start, or the side of the root through which the segment comes in: of those it starts on or outside of, the last.
+ * Two cases are ends on a surface rather than crossings, for cells behind it are not visited: starting on one that lies in a side
+ * of the root, and coming in just where the segment is hit. */
 static void count_start(const struct passage *w, bool hit)
 {
 	const struct box *root = &w->flux->root;
