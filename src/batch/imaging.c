@@ -1,53 +1,44 @@
 #include "batch/imaging.h"
 
-#include "cost/cost.h"
+#include "cost/image.h"
+#include "trace/flux_count.h"
 
-static enum root_kind root_of(const struct structure_spec *spec)
+#include <string.h>
+
+/* The pilot's flux over the root of a, counted where it is not at hand; NULL and *e when memory is out. */
+static const struct flux *flux_over(struct imaging *m, const struct accel *a, struct err *e)
 {
-	const struct key *k = key_find(spec->ops->keys, "root");
-	return k ? (enum root_kind)*(const int *)(const void *)(spec->options + k->offset) : ROOT_BOX;
+	struct flux *f = m->fluxes;
+	while (f->voxels && memcmp(&f->root, &a->root, sizeof f->root) != 0 && f + 1 < m->fluxes + IMAGING_ROOTS)
+		f++;
+	if (f->voxels && memcmp(&f->root, &a->root, sizeof f->root) == 0)
+		return f;
+	flux_close(f);
+	if (flux_open(f, &a->root, e) != 0)
+		return NULL;
+	flux_count(f, m->pilot.image.segments, m->pilot.image.segment_count, a->slack);
+	return f;
 }
 
-static int make_reference(struct reference *r, enum root_kind root, const struct imaging *m, const struct imaging_run *run,
-                          const struct primitives *p, struct err *e)
-{
-	struct structure_spec spec = { .ops = accel_find("octree") };
-	struct accel a;
-	struct prediction predicted;
-	key_defaults(spec.ops->keys, spec.options);
-	const struct key *k = key_find(spec.ops->keys, "root");
-	*(int *)(void *)(spec.options + k->offset) = root;
-	if (accel_build(&a, spec.ops, spec.options, p, e) != 0)
-		return -1;
-	int status = cost_predict(&predicted, &a, LAW_RAYS, run->measure->alpha, run->measure->beta, e);
-	if (status == 0)
-		status = replay_cost(&r->cost, NULL, &m->pilot, &a, run->measure->alpha, run->measure->beta, e);
-	accel_free(&a);
-	r->exact = predicted.predicted_exact;
-	r->known = status == 0;
-	return status;
-}
-
-int imaging_predict(struct imaging *m, const struct imaging_run *run, const struct accel *a, const struct structure_spec *spec,
-                    double exact, struct estimate *replay, struct replay_counts *counts, struct estimate *calibrated, struct err *e)
+int imaging_predict(struct imaging *m, const struct imaging_run *run, const struct accel *a, struct estimate *replay,
+                    struct replay_counts *counts, struct estimate *calibrated, struct err *e)
 {
 	const struct measure_spec *measure = run->measure;
-	enum root_kind root = root_of(spec);
-	struct reference *r = &m->references[root];
 	if (!m->known && pilot_make(&m->pilot, run->setting, a, &measure->image, measure->pilot_width, measure->pilot_height,
 	                            run->threads, run->stop, e) != 0) {
 		pilot_free(&m->pilot);
 		return -1;
 	}
 	m->known = true;
-	if (!r->known && make_reference(r, root, m, run, a->primitives, e) != 0)
+	const struct flux *flux = flux_over(m, a, e);
+	if (!flux || cost_predict_image(calibrated, flux, a, measure->alpha, measure->beta, e) != 0)
 		return -1;
-	double scale = exact / r->exact;
-	*calibrated = (struct estimate){ scale * r->cost.mean, scale * r->cost.low, scale * r->cost.high };
 	return replay_cost(replay, counts, &m->pilot, a, measure->alpha, measure->beta, e);
 }
 
 void imaging_free(struct imaging *m)
 {
 	pilot_free(&m->pilot);
+	for (int i = 0; i < IMAGING_ROOTS; i++)
+		flux_close(&m->fluxes[i]);
 }

@@ -144,8 +144,7 @@ static int measure_image(struct run *r, struct row *row, struct bench *bench, co
 	const struct imaging_run prepare = { m, &bench->setting, r->options->threads, r->options->stop };
 	const struct render_run run = { .alpha = m->alpha, .beta = m->beta, .threads = r->options->threads, .stop = r->options->stop };
 	struct rendering image;
-	if (imaging_predict(imaging, &prepare, &built->accel, built->structure, row->predicted.predicted_exact, &row->replay,
-	                    &row->replayed, &row->calibrated, fault) != 0)
+	if (imaging_predict(imaging, &prepare, &built->accel, &row->replay, &row->replayed, &row->calibrated, fault) != 0)
 		return -1;
 	double start = clock_seconds();
 	int status = render_scene(&image, &bench->setting, &built->accel, &m->image, &run, fault);

@@ -128,7 +128,7 @@ static bool fill_calibrated(struct plot *p, const struct table *t, const char *f
 {
 	(void)folder;
 	struct scatter s = { .x_label = "actual cost a ray", .y_label = "calibrated / actual", .log_x = true };
-	scatter_band(&s, 0.75, 1.25, "aim: 0.75 .. 1.25");
+	scatter_band(&s, 0.9, 1.1, "aim: 0.9 .. 1.1");
 	add_rows(&s, t, &(struct view){ rows_is_image_of_any_tree, "actual", "ratio_calibrated", rows_name_surface });
 	return finish(&s, p);
 }
@@ -231,8 +231,8 @@ const struct figure figures[] = {
 	  fill_chance },
 	{ "replay", "Rendering: a pilot image replayed, over actual cost",
 	  "The pilot's few rays walked through every tree without testing a primitive, random octrees included.", fill_replay },
-	{ "calibrated", "Rendering: the exact predictor calibrated on one tree, over actual cost",
-	  "The cost under random rays times the ratio that the pilot has in one reference octree: no ray at all for any other tree.",
+	{ "calibrated", "Rendering: the predictor calibrated by the flux of a pilot image, over actual cost",
+	  "The pilot's rays counted once on a grid of 64 x 64 x 64; from then on a sum over the cells of a tree, and no ray at all.",
 	  fill_calibrated },
 	{ "costs-bsp", "BSP trees: cost by height", "Figure 5 of Subramanian and Fussell 1990: the model's cost, the exact expectation for random rays, "
 	  "and what the rays of an image cost.", fill_bsp },

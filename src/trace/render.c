@@ -194,7 +194,7 @@ static void keep_segment(struct block *b, const struct ray *r, const struct hit 
 		s->segment_room = want;
 	}
 	struct segment *g = &s->segments[s->segment_count++];
-	*g = (struct segment){ *r, (uint32_t)(first + from->sample), from->class };
+	*g = (struct segment){ *r, (uint32_t)(first + from->sample), from->class, h->id != NO_PRIMITIVE };
 	g->ray.t_max = h->t;
 }
 

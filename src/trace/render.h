@@ -59,11 +59,12 @@ struct class_tally {
 	struct tally sum;
 };
 
-/* Where a ray ended: r.t_max is where it hit, or its light, or infinite. */
+/* Where a ray ended: ray.t_max is where it hit, or its light, or infinite. */
 struct segment {
 	struct ray ray;
 	uint32_t sample;
 	uint8_t class;
+	bool hit;
 };
 
 struct rendering {

@@ -4,12 +4,8 @@
 #ifndef TRACE_REPLAY_H
 #define TRACE_REPLAY_H
 
+#include "base/estimate.h"
 #include "trace/render.h"
-
-/* An expected cost a ray, and the 95 % interval of a bootstrap over the pilot's pixels (Efron 1979). */
-struct estimate {
-	double mean, low, high;
-};
 
 /* Counts a ray, over those that visit a cell; tests_made as the structure's mailbox leaves them, all tests where it has none. */
 struct replay_counts {
@@ -28,7 +24,8 @@ int pilot_make(struct pilot *p, const struct scene *s, const struct accel *a, co
 void pilot_free(struct pilot *p);
 
 /* The cost of the pilot's rays in structure a, over those that visit a cell: alpha a leaf, beta a primitive in its list; and their
- * counts (may be NULL). NAN where none does. 0, or -1 and *e (memory). */
+ * counts (may be NULL). NAN where none does. The interval is by a bootstrap over the pilot's pixels (Efron 1979). 0, or -1 and *e
+ * (memory). */
 int replay_cost(struct estimate *out, struct replay_counts *counts, const struct pilot *p, const struct accel *a, double alpha,
                 double beta, struct err *e);
 
