@@ -5,10 +5,10 @@ BUILD   := build/$(if $(SAN),$(subst $(comma),-,$(SAN)),plain)
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wno-psabi -Werror
 CF       = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(OPT) -g -ffp-contract=off -pthread -Isrc -I. \
            $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all) $(SIMD) $(CFLAGS)
-# Libraries that are used where they are installed: fonts and JPEG images of POV-Ray scenes, mesh formats.
-FOUND   := $(foreach p,freetype2 libjpeg assimp,$(shell pkg-config --exists $p 2>/dev/null && echo $p))
-LIBS    := $(if $(filter assimp,$(FOUND)),-lassimp) -lyaml -lpng -lz -lm \
-           $(foreach p,$(filter-out assimp,$(FOUND)),$(shell pkg-config --libs $p))
+# Libraries that are used where they are installed: fonts and JPEG images of POV-Ray scenes; mesh formats, loaded by those who need them.
+FOUND   := $(foreach p,freetype2 libjpeg,$(shell pkg-config --exists $p 2>/dev/null && echo $p))
+ASSIMP  := $(shell pkg-config --exists assimp 2>/dev/null && basename "$$(realpath "$$($(CC) -print-file-name=libassimp.so)")")
+LIBS    := -lyaml -lpng -lz -lm -ldl $(foreach p,$(FOUND),$(shell pkg-config --libs $p))
 FLOORS  := base geom scene spd io accel cost trace batch report cli
 PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-dev gnuplot-nox pkg-config libfreetype-dev \
             libjpeg-dev libassimp-dev
@@ -133,7 +133,7 @@ $(BUILD)/%.avx2.o: %.c
 	@mkdir -p $(@D)
 	$(CC) $(CF) -MMD -MP -c $< -o $@
 
-$(BUILD)/src/io/mesh_import.o: CFLAGS += $(if $(filter assimp,$(FOUND)),-DHAVE_ASSIMP)
+$(BUILD)/src/io/mesh_import.o: CFLAGS += $(if $(ASSIMP),-DASSIMP='"$(ASSIMP)"')
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)

@@ -350,14 +350,14 @@ int record_time(struct record *r, const char *line, struct err *e)
 	return write_line(r, r->times, "times.csv", line, strlen(line), e);
 }
 
-/* Old rows whose key no combination of this run has. */
+/* Old rows whose key no combination of this run has. Failed ones are not kept: of a scene that could not be read the key is another. */
 static int list_strangers(const struct record *r, struct text *strangers, struct err *e)
 {
 	struct line_index done;
 	if (line_index_make(&done, &r->keys, false, e) != 0)
 		return -1;
 	for (const char *line = first_line(&r->old.rows); line; line = line_next(line))
-		if (!line_index_find(&done, line))
+		if (line_is_ok(line) && !line_index_find(&done, line))
 			text_add(strangers, line, line_length(line));
 	free(done.lines);
 	return strangers->lost ? err_memory(e, "record") : 0;

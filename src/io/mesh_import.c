@@ -3,7 +3,7 @@
 #include "io/include.h"
 #include "io/mesh.h"
 
-#ifndef HAVE_ASSIMP
+#ifndef ASSIMP
 
 bool mesh_available(void)
 {
@@ -26,6 +26,7 @@ int mesh_import(int fd, const char *name, const char *text, size_t n, const char
 #include <assimp/mesh.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <dlfcn.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,6 +35,26 @@ int mesh_import(int fd, const char *name, const char *text, size_t n, const char
 
 enum { BATCH = 256, NODES_DEEPEST = 4096 };
 static const size_t companion_bytes_most = (size_t)1 << 30;
+
+/* What is used of Assimp. It is loaded by the child that needs it: it allocates much, and takes time, before main is entered. */
+struct assimp {
+	struct aiPropertyStore *(*create_properties)(void);
+	const struct aiScene *(*import)(const char *file, unsigned flags, struct aiFileIO *io, const struct aiPropertyStore *properties);
+	const char *(*error)(void);
+	enum aiReturn (*color)(const struct aiMaterial *m, const char *key, unsigned type, unsigned index, struct aiColor4D *out);
+	enum aiReturn (*reals)(const struct aiMaterial *m, const char *key, unsigned type, unsigned index, ai_real *out, unsigned *most);
+};
+
+/* False, and the reason in dlerror, where the library of the build (ASSIMP) is not there or not itself. */
+static bool load_assimp(struct assimp *a)
+{
+	void *library = dlopen(ASSIMP, RTLD_NOW | RTLD_LOCAL);
+	return library && (*(void **)(void *)&a->create_properties = dlsym(library, "aiCreatePropertyStore")) &&
+	       (*(void **)(void *)&a->import = dlsym(library, "aiImportFileExWithProperties")) &&
+	       (*(void **)(void *)&a->error = dlsym(library, "aiGetErrorString")) &&
+	       (*(void **)(void *)&a->color = dlsym(library, "aiGetMaterialColor")) &&
+	       (*(void **)(void *)&a->reals = dlsym(library, "aiGetMaterialFloatArray"));
+}
 
 /* The files Assimp sees. */
 struct files {
@@ -231,24 +252,24 @@ static double largest(const struct aiColor4D *c)
 	return written(fmaxf(c->r, fmaxf(c->g, c->b)));
 }
 
-static void send_material(struct sender *s, const struct aiMaterial *from)
+static void send_material(struct sender *s, const struct assimp *assimp, const struct aiMaterial *from)
 {
 	struct aiColor4D diffuse = { 0.8f, 0.8f, 0.8f, 1 }, specular = { 0, 0, 0, 1 };
 	float shine = 0, opacity = 1, ior = 1;
 	unsigned one = 1;
-	if (aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &diffuse) != aiReturn_SUCCESS)
-		aiGetMaterialColor(from, AI_MATKEY_BASE_COLOR, &diffuse);
-	aiGetMaterialColor(from, AI_MATKEY_COLOR_SPECULAR, &specular);
-	aiGetMaterialFloatArray(from, AI_MATKEY_SHININESS, &shine, &one);
-	aiGetMaterialFloatArray(from, AI_MATKEY_OPACITY, &opacity, &one);
-	aiGetMaterialFloatArray(from, AI_MATKEY_REFRACTI, &ior, &one);
+	if (assimp->color(from, AI_MATKEY_COLOR_DIFFUSE, &diffuse) != aiReturn_SUCCESS)
+		assimp->color(from, AI_MATKEY_BASE_COLOR, &diffuse);
+	assimp->color(from, AI_MATKEY_COLOR_SPECULAR, &specular);
+	assimp->reals(from, AI_MATKEY_SHININESS, &shine, &one);
+	assimp->reals(from, AI_MATKEY_OPACITY, &opacity, &one);
+	assimp->reals(from, AI_MATKEY_REFRACTI, &ior, &one);
 	const struct mesh_material m = { written(diffuse.r), written(diffuse.g), written(diffuse.b), largest(&specular), written(shine),
 		                         written(1 - opacity), written(ior) };
 	s->failed |= !send_all(s->fd, &m, sizeof m);
 }
 
 /* The whole scene, once to count its triangles, once to send them. */
-static int send_scene(struct sender *s, int fd)
+static int send_scene(struct sender *s, const struct assimp *assimp, int fd)
 {
 	const struct matrix here = matrix_identity();
 	struct mesh_head head = { .magic = MESH_MAGIC, .materials = s->scene->mNumMaterials };
@@ -258,7 +279,7 @@ static int send_scene(struct sender *s, int fd)
 	s->fd = fd;
 	s->failed = !send_all(fd, &head, sizeof head);
 	for (unsigned i = 0; i < s->scene->mNumMaterials && !s->failed; i++)
-		send_material(s, s->scene->mMaterials[i]);
+		send_material(s, assimp, s->scene->mMaterials[i]);
 	send_node(s, s->scene->mRootNode, &here, 0);
 	flush_batch(s);
 	return s->failed;
@@ -273,17 +294,21 @@ int mesh_import(int fd, const char *name, const char *text, size_t n, const char
 {
 	struct files files = { name, folders, text, n };
 	struct aiFileIO io = { .OpenProc = open_file, .CloseProc = close_file, .UserData = (aiUserData)(void *)&files };
-	struct aiPropertyStore *properties = aiCreatePropertyStore();
-	const struct aiScene *scene = aiImportFileExWithProperties(name, aiProcess_Triangulate, &io, properties);
+	struct mesh_head head = { .magic = MESH_MAGIC };
+	struct assimp assimp;
+	if (!load_assimp(&assimp)) {
+		snprintf(head.message, sizeof head.message, "%s", dlerror());
+		return !send_all(fd, &head, sizeof head);
+	}
+	const struct aiScene *scene = assimp.import(name, aiProcess_Triangulate, &io, assimp.create_properties());
 	struct sender *s = calloc(1, sizeof *s);
 	if (!s)
 		return 1;
 	if (scene && scene->mRootNode) {
 		s->scene = scene;
-		return send_scene(s, fd);
+		return send_scene(s, &assimp, fd);
 	}
-	struct mesh_head head = { .magic = MESH_MAGIC };
-	const char *why = aiGetErrorString();
+	const char *why = assimp.error();
 	snprintf(head.message, sizeof head.message, "%s", *why ? why : "nothing in it");
 	return !send_all(fd, &head, sizeof head);
 }
