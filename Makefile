@@ -58,9 +58,9 @@ coverage: ## lines that the tests run, in percent
 		'/^File/ { own = /src.*[.]c|spd.*[.]c/ } /^Lines/ && own { lines += $$5; run += $$5 * $$3 / 100; own = 0 } END { printf "%.1f %% of %d lines\n", 100 * run / lines, lines }'
 
 SECONDS ?= 60
-fuzz: $(FUZZ:%=build/fuzz/fuzz_%) ## fuzz every reader for SECONDS=60 in all, under ASan and UBSan (clang with libFuzzer)
+fuzz: $(FUZZ:%=build/fuzz/fuzz_%) ## fuzz every reader for SECONDS=60 in all, or RUNS of SEED, under ASan and UBSan (clang with libFuzzer)
 	@set -e; for f in $(FUZZ); do mkdir -p build/fuzz/corpus/$$f tests/crashers/$$f; echo "fuzz, $$f:"; \
-		build/fuzz/fuzz_$$f -max_total_time=$$(($(SECONDS) / $(words $(FUZZ)) + 1)) -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
+		build/fuzz/fuzz_$$f -max_total_time=$$(($(SECONDS) / $(words $(FUZZ)) + 1)) $(if $(SEED),-seed=$(SEED)) $(if $(RUNS),-runs=$(RUNS)) -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
 			$$(ls tests/fuzz/$$f.dict 2>/dev/null | sed s/^/-dict=/) -artifact_prefix=tests/crashers/$$f/ build/fuzz/corpus/$$f tests/fuzz/$$f \
 			>build/fuzz/$$f.log 2>&1 || { tail -40 build/fuzz/$$f.log; exit 1; }; \
 		grep -E 'number_of_executed_units|new_units_added|peak_rss' build/fuzz/$$f.log; done; rmdir tests/crashers/* 2>/dev/null || true

@@ -2,6 +2,7 @@
 #include "tests/structure.h"
 
 #include "accel/octree.h"
+#include "trace/rays.h"
 #include "base/rng.h"
 
 #include <string.h>
@@ -252,6 +253,48 @@ static void memory_is_bounded(void **state)
 	primitives_free(&p);
 }
 
+/* Whatever the processor, and however many rays are on their way: what one ray at a time finds and costs. */
+static void crowds_count_what_single_rays_count(void **state)
+{
+	(void)state;
+	enum { RAYS = 3000 };
+	static struct ray rays[RAYS];
+	static struct hit hits[RAYS];
+	static struct tally tallies[RAYS];
+	static void (*const crowds[])(const struct accel *, const struct ray *, size_t, struct hit *, struct tally *) = {
+		octree_crowd,
+#ifdef __x86_64__
+		octree_crowd_avx2,
+#endif
+	};
+	for (size_t c = 0; c < sizeof crowds / sizeof *crowds; c++) {
+#ifdef __x86_64__
+		if (crowds[c] == octree_crowd_avx2 && !__builtin_cpu_supports("avx2"))
+			continue;
+#endif
+		for (int v = 0; v < 4; v++) {
+			struct primitives p = make_spd(v & 1 ? "balls" : "gears", v & 1 ? 2 : 1, v & 2);
+			struct accel a = build(&p, options(false, v & 1 ? 2 : 12, 6, ROOT_BOX));
+			struct ray_source source;
+			struct err e = { 0 };
+			assert_int_equal(ray_source_open(&source, &a, WORKLOAD_INVARIANT, 7, &e), 0);
+			ray_source_draw_many(&source, 0, RAYS, rays);
+			crowds[c](&a, rays, RAYS, hits, tallies);
+			for (int i = 0; i < RAYS; i++) {
+				struct hit h;
+				struct tally n = { 0 };
+				accel_find("octree")->shoot_counted(&a, &rays[i], &h, &n);
+				assert_memory_equal(&tallies[i], &n, sizeof n);
+				assert_int_equal(hits[i].id, h.id);
+				assert_true(hits[i].t == h.t);
+			}
+			ray_source_close(&source);
+			accel_free(&a);
+			primitives_free(&p);
+		}
+	}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -264,6 +307,7 @@ int main(void)
 		cmocka_unit_test(random_octrees_are_as_large_as_expected),
 		cmocka_unit_test(features_are_isolated),
 		cmocka_unit_test(memory_is_bounded),
+		cmocka_unit_test(crowds_count_what_single_rays_count),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

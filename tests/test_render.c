@@ -94,8 +94,8 @@ static void rays_do_not_depend_on_the_structure(void **state)
 		struct rendering want, got;
 		render(&want, &s, &list, &o, 2);
 		assert_int_equal(want.classes[RAY_PRIMARY].rays, 40 * 30);
-		for (int v = 0; v < 13; v++) {
-			static const char *const others[] = { "kd", "bsp", "grid" };
+		for (int v = 0; v < 15; v++) {
+			static const char *const others[] = { "kd", "bsp", "grid", "bvh", "bvh8" };
 			struct octree_options octree = variant(v);
 			struct accel a = v < 10 ? build(&s, "octree", &octree) : build_default(&s, others[v - 10]);
 			render(&got, &s, &a, &o, 2);

@@ -1,7 +1,6 @@
 /* Octree (Aronov, Bronnimann, Chang, Chiang: Cost prediction for ray shooting, 2002): a root cube or tight box, cut through its centre
  * into eight while a cell lists more than max_objects primitives. Rays walk from leaf to leaf over links to the same-or-larger
- * node across each face and descend from there. This file: options and
- * walk. */
+ * node across each face and descend from there. This file: options, the walk of one ray, and the table. */
 #include "accel/octree_walk.h"
 
 #include <string.h>

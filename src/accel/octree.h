@@ -1,5 +1,6 @@
-/* The octree's inside, shared by the files that build it (octree_build.c) by a criterion (octree_criterion.c), balance it (octree_balance.c), list and check its cells
- * (octree_cells.c) and walk it (octree.c).
+/* The octree's inside, shared by the files that build it (octree_build.c) by a criterion (octree_criterion.c), balance it
+ * (octree_balance.c), list and check its cells (octree_cells.c), and walk it (octree_walk.h) one ray at a time (octree.c) or many
+ * (octree_crowd.c).
  *
  * Cells have integer coordinates on a grid of 2^20 cells a side over the root, whatever the tree's depth: plane i of an axis lies
  * at root.lo + i * step, the same double for every cell that has it as a side. */

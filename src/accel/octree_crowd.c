@@ -163,7 +163,7 @@ void OCTREE_CROWD(const struct accel *a, const struct ray *r, size_t count, stru
 	for (c.idles = 0; c.idles < OCTREE_WALKERS; c.idles++)
 		c.idle[c.idles] = &c.all[c.idles];
 	for (;;) {
-		/* Last step first: who takes one in this turn takes the next one in the next. */
+		/* The last step first, so that nobody takes two in one turn. */
 		leave_leaves(&c, &v, a);
 		screen_lists(&c, a, o);
 		gather_screens(&c, o);

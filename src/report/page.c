@@ -25,6 +25,7 @@ static const char head[] =
 	"table { border-collapse: collapse; font-size: .85rem } td, th { padding: .25rem .6rem; text-align: left; vertical-align: top }\n"
 	"th { position: sticky; top: 0; background: #e7ecf1; cursor: pointer; white-space: nowrap } td.n { text-align: right }\n"
 	"tr:nth-child(even) td { background: #f6f8fa } .claims td { min-width: 9rem } .claims { width: 100%% }\n"
+	"@media (max-width: 640px) { .claims td { min-width: 0 } .claims th { white-space: normal } figure svg { min-width: 0 } }\n"
 	"</style>\n</head>\n<body>\n<h1>%s</h1>\n";
 
 static const char tail[] =

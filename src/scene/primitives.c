@@ -141,6 +141,15 @@ static void sum_up(struct primitives *p)
 	}
 }
 
+/* Whether what is near to each other, 1e-9 of the scene's diagonal (geom/ray.h), is still some roundings of a coordinate. */
+static bool is_resolved(const struct box *b)
+{
+	double far = 0;
+	for (int i = 0; i < 3; i++)
+		far = fmax(far, fmax(fabs(b->lo.a[i]), fabs(b->hi.a[i])));
+	return far * 0x1p-50 <= 1e-9 * box_diagonal(b);
+}
+
 int primitives_make(struct primitives *p, const struct scene *s, enum curves curves, int resolution, const char *name,
                     struct err *e)
 {
@@ -163,6 +172,10 @@ int primitives_make(struct primitives *p, const struct scene *s, enum curves cur
 		return err_at(e, STATUS_INPUT, name, 0, "nothing with a surface in the scene");
 	}
 	sum_up(p);
+	if (!is_resolved(&p->bounds)) {
+		primitives_free(p);
+		return err_at(e, STATUS_INPUT, name, 0, "the scene lies too far from the origin for its size");
+	}
 	return 0;
 }
 
