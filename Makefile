@@ -39,7 +39,9 @@ deps: ## install what is missing (Debian: apt)
 	root=; [ "$$(id -u)" = 0 ] || root=sudo; \
 	$$root apt-get update -q && $$root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing
 
-test: $(TESTS) $(FUZZ:%=$(BUILD)/tests/fuzz/replay_%) $(BUILD)/raycost layers ## run every test; SAN=address,undefined or SAN=thread runs them sanitized
+tests: $(TESTS) $(FUZZ:%=$(BUILD)/tests/fuzz/replay_%) $(BUILD)/raycost ## build the program and every test
+
+test: tests layers ## run every test; SAN=address,undefined or SAN=thread runs them sanitized
 	@set -e; for t in $(TESTS); do ./$$t; done
 	@set -e; for f in $(FUZZ); do printf 'fuzz, %s: ' $$f; \
 		$(BUILD)/tests/fuzz/replay_$$f tests/fuzz/$$f tests/crashers/$$f 2>$(BUILD)/replay.log || { cat $(BUILD)/replay.log; exit 1; }; done
@@ -155,6 +157,6 @@ $(BUILD)/version: .FORCE
 -include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d $(BUILD)/tests/bench_bvh.d
 -include $(wildcard $(BUILD)/tests/fuzz/*.d build/fuzz/*/*/*.d build/fuzz/*/*.d)
 
-.PHONY: all deps test fuzz faults test-slurm coverage layers sweep paper hierarchies smits bench check-pov golden clean help .FORCE
+.PHONY: all deps tests test fuzz faults test-slurm coverage layers sweep paper hierarchies smits bench check-pov golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
