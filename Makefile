@@ -41,12 +41,15 @@ deps: ## install what is missing (Debian: apt)
 
 tests: $(TESTS) $(FUZZ:%=$(BUILD)/tests/fuzz/replay_%) $(BUILD)/raycost ## build the program and every test
 
-test: tests layers ## run every test; SAN=address,undefined or SAN=thread runs them sanitized
-	@set -e; for t in $(TESTS); do ./$$t; done
-	@set -e; for f in $(FUZZ); do printf 'fuzz, %s: ' $$f; \
-		$(BUILD)/tests/fuzz/replay_$$f tests/fuzz/$$f tests/crashers/$$f 2>$(BUILD)/replay.log || { cat $(BUILD)/replay.log; exit 1; }; done
+test: layers $(TESTS:=.run) $(FUZZ:=.run) $(BUILD)/raycost ## run every test; SAN=address,undefined or SAN=thread runs them sanitized
 	@RAYCOST=$(BUILD)/raycost sh tests/cli.sh
 	@$(if $(SAN),,RAYCOST=$(BUILD)/raycost sh tests/shards.sh)
+
+$(TESTS:=.run): %.run: %
+	@./$<
+
+$(FUZZ:=.run): %.run: $(BUILD)/tests/fuzz/replay_%
+	@printf 'fuzz, %s: ' $*; $< tests/fuzz/$* tests/crashers/$* 2>$(BUILD)/replay_$*.log || { cat $(BUILD)/replay_$*.log; exit 1; }
 
 faults: $(BUILD)/raycost $(BUILD)/shim.so ## what the world does to a run; KILLS=300 kills it more often
 	@RAYCOST=$(BUILD)/raycost SHIM=$(BUILD)/shim.so bash tests/faults.sh
@@ -157,6 +160,6 @@ $(BUILD)/version: .FORCE
 -include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d $(BUILD)/tests/bench_bvh.d
 -include $(wildcard $(BUILD)/tests/fuzz/*.d build/fuzz/*/*/*.d build/fuzz/*/*.d)
 
-.PHONY: all deps tests test fuzz faults test-slurm coverage layers sweep paper hierarchies smits bench check-pov golden clean help .FORCE
+.PHONY: $(TESTS:=.run) $(FUZZ:=.run) all deps tests test fuzz faults test-slurm coverage layers sweep paper hierarchies smits bench check-pov golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:
