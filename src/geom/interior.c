@@ -13,12 +13,6 @@ static const double pi = 3.14159265358979323846;
 /* Shorter than that of the scene's longest side, faces are small: there both ways agree to 1e-6. */
 static const double small = 1e-4;
 
-static double volume(const struct box *b)
-{
-	struct vec size = vec_sub(b->hi, b->lo);
-	return size.x * size.y * size.z;
-}
-
 /* factor * ln(u + r), where rest = r^2 - u^2; 0 where the factor is, whatever the logarithm. */
 static double times_log(double factor, double u, double rest, double r)
 {
@@ -94,7 +88,7 @@ double interior_exact(const struct box *scene, const struct box *node)
 		}
 		sum += is_small ? integrate_small_face(&s) : integrate_face(&s);
 	}
-	return (volume(node) + sum * unit * unit * unit / (4 * pi)) / volume(scene);
+	return (box_volume(node) + sum * unit * unit * unit / (4 * pi)) / box_volume(scene);
 }
 
 double interior_sah(const struct box *scene, const struct box *node)
@@ -125,7 +119,7 @@ static double solid_angle_face(const struct box *b, int f, struct vec from)
 
 double interior_hq26(const struct box *scene, const struct box *node)
 {
-	double sum = volume(node);
+	double sum = box_volume(node);
 	for (int region = 0; region < 27; region++) {
 		const int where[3] = { region % 3, region / 3 % 3, region / 9 }; /* below the node, beside it, above it */
 		struct box b;
@@ -134,13 +128,13 @@ double interior_hq26(const struct box *scene, const struct box *node)
 			b.lo.a[i] = ends[where[i]];
 			b.hi.a[i] = ends[where[i] + 1];
 		}
-		double part = volume(&b), angle = 0;
+		double part = box_volume(&b), angle = 0;
 		struct vec centre = vec_scale(vec_add(b.lo, b.hi), 0.5);
 		for (int i = 0; i < 3 && part > 0; i++)
 			angle += where[i] == 1 ? 0 : solid_angle_face(node, 2 * i + (where[i] == 2), centre);
 		sum += part * angle / (4 * pi);
 	}
-	return sum / volume(scene);
+	return sum / box_volume(scene);
 }
 
 /* Area and circumference of a box cut across an axis. */
@@ -163,14 +157,14 @@ static void measure_depths(const struct box *scene, const struct box *node, int 
 
 double interior_fast6(const struct box *scene, const struct box *node)
 {
-	double sum = volume(node);
+	double sum = box_volume(node);
 	for (int axis = 0; axis < 3; axis++) {
 		double depth[2], face, around;
 		measure_depths(scene, node, axis, depth);
 		measure_cut(node, axis, &face, &around);
 		sum += face * (depth[0] + depth[1]);
 	}
-	return sum / volume(scene);
+	return sum / box_volume(scene);
 }
 
 static struct interior_slide slide_open(const struct box *scene, const struct box *node, int axis)
@@ -194,7 +188,7 @@ struct interior_slide interior_slide_sah(const struct box *scene, const struct b
 struct interior_slide interior_slide_fast6(const struct box *scene, const struct box *node, int axis)
 {
 	struct interior_slide s = slide_open(scene, node, axis);
-	double face, around, depth[2], all = volume(scene);
+	double face, around, depth[2], all = box_volume(scene);
 	measure_cut(node, axis, &face, &around);
 	measure_depths(scene, node, axis, depth);
 	s.face = face / all;
