@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { RAYS = 60000 };
+enum { RAYS = 40000 };
 
 /* A structure with options as a job would write them. */
 struct variant {
@@ -39,6 +39,10 @@ static const struct variant variants[] = {
 	{ "kd", { { "max_objects", 1 }, { "max_depth", 12 }, { "traversal", 1 }, { "root", ROOT_CUBE }, { "mailbox", MAILBOX_ONE } } },
 	{ "kd", { { "max_objects", 4 }, { "boxes", 0.5 } } },
 	{ "kd", { { "max_objects", 1 }, { "boxes", 0.9 }, { "root", ROOT_CUBE }, { "max_depth", 10 } } },
+	{ "kd", { { "split", SPLIT_SAH }, { "mailbox", MAILBOX_ONE } } },
+	{ "kd", { { "split", SPLIT_HQ26 }, { "max_depth", 12 }, { "traversal", 1 }, { "root", ROOT_CUBE } } },
+	{ "kd", { { "split", SPLIT_FAST6 }, { "empty_cutoff", 0.1 }, { "traversal", 1 } } },
+	{ "kd", { { "split", SPLIT_EXACT }, { "step", 0.5 }, { "test", 1 }, { "mailbox", MAILBOX_FULL } } },
 	{ "bsp", { { "max_objects", 2 }, { "max_depth", 16 }, { "mailbox", MAILBOX_ONE } } },
 	{ "bsp", { { "max_objects", 5 }, { "max_depth", 18 }, { "traversal", 1 }, { "root", ROOT_CUBE } } },
 	{ "bsp", { { "max_objects", 5 }, { "max_depth", 15 }, { "empty_halves", 1 }, { "mailbox", MAILBOX_FULL } } },
@@ -80,6 +84,14 @@ static void lines_in_gears(void **state)
 	(void)state;
 	struct primitives p = make_spd("gears", 1, false);
 	compare_variants(&p, "lines in gears", WORKLOAD_LINES);
+	primitives_free(&p);
+}
+
+static void rays_from_inside(void **state)
+{
+	const struct family *f = *state;
+	struct primitives p = make_spd(f->name, f->size, f->tessellate);
+	compare_variants(&p, f->name, WORKLOAD_INTERIOR);
 	primitives_free(&p);
 }
 
@@ -289,6 +301,8 @@ int main(void)
 		{ "exact: balls, spheres", rays_in_spd_scenes, NULL, NULL, &scenes[4] },
 		{ "exact: sphere", rays_in_spd_scenes, NULL, NULL, &scenes[5] },
 		cmocka_unit_test(lines_in_gears),
+		{ "from inside: gears", rays_from_inside, NULL, NULL, &scenes[2] },
+		{ "from inside: balls", rays_from_inside, NULL, NULL, &scenes[3] },
 		cmocka_unit_test(faces_in_cell_planes),
 		cmocka_unit_test(outside_of_solids),
 		cmocka_unit_test(lists_are_sound),
