@@ -97,7 +97,7 @@ static void small_nodes_are_met_by_their_area(void **state)
 		}
 }
 
-static void sliding_is_the_same(void **state)
+static void sliding_and_cutting_are_the_same(void **state)
 {
 	(void)state;
 	static const double low[3] = { 0.1, 0.2, 0 }, high[3] = { 0.9, 0.4, 1 };
@@ -108,9 +108,13 @@ static void sliding_is_the_same(void **state)
 			struct interior_slide sah = interior_slide_sah(scenes[s], &node, axis), fast = interior_slide_fast6(scenes[s], &node, axis);
 			double plane = node.lo.a[axis] + (k % 9 + 1) / 10.0 * (node.hi.a[axis] - node.lo.a[axis]);
 			half[0].hi.a[axis] = half[1].lo.a[axis] = plane;
+			struct interior_parts parts = interior_measure(scenes[s], &node);
+			double cut[2];
+			interior_cut(scenes[s], &node, &parts, axis, plane, cut);
 			for (int i = 0; i < 2; i++) {
 				assert_near(interior_slide_to(&sah, plane, i), interior_sah(scenes[s], &half[i]), 1e-14);
 				assert_near(interior_slide_to(&fast, plane, i), interior_fast6(scenes[s], &half[i]), 1e-14);
+				assert_near(cut[i], interior_exact(scenes[s], &half[i]), 1e-14);
 			}
 		}
 }
@@ -175,7 +179,7 @@ int main(void)
 		cmocka_unit_test(the_scene_is_met),
 		cmocka_unit_test(rays_meet_as_many),
 		cmocka_unit_test(small_nodes_are_met_by_their_area),
-		cmocka_unit_test(sliding_is_the_same),
+		cmocka_unit_test(sliding_and_cutting_are_the_same),
 		cmocka_unit_test(approximations_err_as_known),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,7 +14,8 @@
 struct metric {
 	double (*chance)(const struct box *scene, const struct box *node);
 	struct interior_slide (*slide)(const struct box *scene, const struct box *node, int axis);
-	bool slides; /* 'slide' is of 'chance' itself */
+	bool slides;   /* 'slide' is of 'chance' itself */
+	bool is_exact; /* 'chance' is interior_exact: cuts are quicker than parts */
 };
 
 struct candidate {
@@ -104,27 +105,35 @@ static struct candidate sweep(const struct plane_builder *b, const struct plane_
 	return best;
 }
 
-/* Judge a candidate by the metric itself. */
-static void judge(const struct plane_builder *b, const struct plane_cell *c, const struct metric *m, struct candidate *k, double chance,
-                  double leaf)
+/* Judge a candidate by the metric itself; parts: of the cell, where it is exact. */
+static void judge(const struct plane_builder *b, const struct plane_cell *c, const struct metric *m, struct candidate *k,
+                  const struct interior_parts *parts, double leaf)
 {
 	struct box lower = c->bounds, upper = c->bounds;
+	double half[2];
 	lower.hi.a[k->axis] = upper.lo.a[k->axis] = k->plane;
-	const double half[2] = { m->chance(&b->accel->root, &lower), m->chance(&b->accel->root, &upper) };
-	weigh(b->options, k, &c->bounds, chance, half, leaf);
+	if (m->is_exact) {
+		interior_cut(&b->accel->root, &c->bounds, parts, k->axis, k->plane, half);
+	} else {
+		half[0] = m->chance(&b->accel->root, &lower);
+		half[1] = m->chance(&b->accel->root, &upper);
+	}
+	weigh(b->options, k, &c->bounds, parts->all, half, leaf);
 }
 
 static bool choose(struct plane_builder *b, const struct plane_cell *c, const struct metric *m, int *axis, double *plane)
 {
 	if (c->count == 0)
 		return false;
-	const double chance = m->chance(&b->accel->root, &c->bounds), leaf = ((const struct kd_options *)b->options)->test * chance * c->count;
+	const struct interior_parts parts = m->is_exact ? interior_measure(&b->accel->root, &c->bounds)
+		                                        : (struct interior_parts){ .all = m->chance(&b->accel->root, &c->bounds) };
+	const double leaf = ((const struct kd_options *)b->options)->test * parts.all * c->count;
 	struct candidate best = { .cost = INFINITY };
 	sort_ends(b, c);
 	for (int i = 0; i < 3; i++) {
 		struct candidate k = sweep(b, c, m, i);
 		if (k.cost < INFINITY && !m->slides)
-			judge(b, c, m, &k, chance, leaf);
+			judge(b, c, m, &k, &parts, leaf);
 		if (is_better(&k, &best))
 			best = k;
 	}
@@ -133,8 +142,8 @@ static bool choose(struct plane_builder *b, const struct plane_cell *c, const st
 	return best.cost < leaf;
 }
 
-static const struct metric sah = { interior_sah, interior_slide_sah, true }, fast6 = { interior_fast6, interior_slide_fast6, true },
-	hq26 = { interior_hq26, interior_slide_fast6, false }, exact = { interior_exact, interior_slide_fast6, false };
+static const struct metric sah = { interior_sah, interior_slide_sah, true, false }, fast6 = { interior_fast6, interior_slide_fast6, true, false },
+	hq26 = { interior_hq26, interior_slide_fast6, false, false }, exact = { interior_exact, interior_slide_fast6, false, true };
 
 bool kd_choose_sah(struct plane_builder *b, const struct plane_cell *c, int *axis, double *plane)
 {

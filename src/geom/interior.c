@@ -34,34 +34,33 @@ static double integral_planes(double u, double v, double w)
 	       (w > 0 ? u * v * w * atan2(u * v, w * r) : 0);
 }
 
-/* A face and the slab beyond it, lengths in units of the scene's longest side: the face's ends, from the scene's lower ones, and the
- * scene's sides, on two axes; the thickness. */
-struct slab {
-	double face[2][2], side[2], thickness;
+/* Two faces that face each other across an axis, lengths in units of the scene's longest side: their ends, from the scene's lower ones,
+ * and the scene's sides, on the other axes. */
+struct faces {
+	double end[2][2], side[2];
 };
 
-/* 4 pi J by H. */
-static double integrate_face(const struct slab *s)
+/* The sum of H over all ends, at distance w. */
+static double sum_ends(const struct faces *f, double w)
 {
 	double sum = 0;
 	for (int k = 0; k < 16; k++) {
-		double u = (k & 1 ? s->side[0] : 0) - s->face[0][k >> 1 & 1], v = (k & 4 ? s->side[1] : 0) - s->face[1][k >> 3 & 1];
-		double term = integral_planes(u, v, 0) - integral_planes(u, v, s->thickness);
+		double u = (k & 1 ? f->side[0] : 0) - f->end[0][k >> 1 & 1], v = (k & 4 ? f->side[1] : 0) - f->end[1][k >> 3 & 1];
+		double term = integral_planes(u, v, w);
 		sum += ((k ^ k >> 1 ^ k >> 2 ^ k >> 3) & 1) ? -term : term;
 	}
 	return sum;
 }
 
-/* 4 pi J by G, over the face. */
-static double integrate_small_face(const struct slab *s)
+/* The same, G integrated over a small face. */
+static double sum_points(const struct faces *f, double w)
 {
 	static const double at[3] = { 0.11270166537925831, 0.5, 0.88729833462074169 }, weight[3] = { 5 / 18.0, 8 / 18.0, 5 / 18.0 };
-	double sum = 0, length[2] = { s->face[0][1] - s->face[0][0], s->face[1][1] - s->face[1][0] };
+	double sum = 0, length[2] = { f->end[0][1] - f->end[0][0], f->end[1][1] - f->end[1][0] };
 	for (int k = 0; k < 9; k++) {
-		double a = s->face[0][0] + at[k % 3] * length[0], b = s->face[1][0] + at[k / 3] * length[1], inner = 0;
+		double a = f->end[0][0] + at[k % 3] * length[0], b = f->end[1][0] + at[k / 3] * length[1], inner = 0;
 		for (int c = 0; c < 4; c++) {
-			double u = (c & 1 ? s->side[0] : 0) - a, v = (c & 2 ? s->side[1] : 0) - b;
-			double term = integral_plane(u, v, 0) - integral_plane(u, v, s->thickness);
+			double term = integral_plane((c & 1 ? f->side[0] : 0) - a, (c & 2 ? f->side[1] : 0) - b, w);
 			inner += c == 1 || c == 2 ? -term : term;
 		}
 		sum += weight[k % 3] * weight[k / 3] * inner;
@@ -69,26 +68,59 @@ static double integrate_small_face(const struct slab *s)
 	return sum * length[0] * length[1];
 }
 
-double interior_exact(const struct box *scene, const struct box *node)
+/* J / V(scene) of the node's lower and upper face across an axis. */
+static void measure_faces(const struct box *scene, const struct box *node, int axis, double through[2])
 {
 	struct vec size = vec_sub(scene->hi, scene->lo);
-	double unit = fmax(size.x, fmax(size.y, size.z)), sum = 0;
-	for (int f = 0; f < 6; f++) {
-		int axis = f / 2;
-		struct slab s = { .thickness = (f % 2 ? scene->hi.a[axis] - node->hi.a[axis] : node->lo.a[axis] - scene->lo.a[axis]) / unit };
-		if (s.thickness <= 0)
-			continue;
-		bool is_small = true;
-		for (int i = 0; i < 2; i++) {
-			int across = (axis + 1 + i) % 3;
-			s.face[i][0] = (node->lo.a[across] - scene->lo.a[across]) / unit;
-			s.face[i][1] = (node->hi.a[across] - scene->lo.a[across]) / unit;
-			s.side[i] = size.a[across] / unit;
-			is_small &= s.face[i][1] - s.face[i][0] < small;
-		}
-		sum += is_small ? integrate_small_face(&s) : integrate_face(&s);
+	double unit = fmax(size.x, fmax(size.y, size.z)), scale = unit * unit * unit / (4 * pi * box_volume(scene));
+	double thickness[2] = { (node->lo.a[axis] - scene->lo.a[axis]) / unit, (scene->hi.a[axis] - node->hi.a[axis]) / unit };
+	struct faces f;
+	bool is_small = true;
+	through[0] = through[1] = 0;
+	if (thickness[0] <= 0 && thickness[1] <= 0)
+		return;
+	for (int i = 0; i < 2; i++) {
+		int across = (axis + 1 + i) % 3;
+		f.end[i][0] = (node->lo.a[across] - scene->lo.a[across]) / unit;
+		f.end[i][1] = (node->hi.a[across] - scene->lo.a[across]) / unit;
+		f.side[i] = size.a[across] / unit;
+		is_small &= f.end[i][1] - f.end[i][0] < small;
 	}
-	return (box_volume(node) + sum * unit * unit * unit / (4 * pi)) / box_volume(scene);
+	double (*sum)(const struct faces *, double) = is_small ? sum_points : sum_ends, near = sum(&f, 0);
+	for (int i = 0; i < 2; i++)
+		through[i] = thickness[i] > 0 ? (near - sum(&f, thickness[i])) * scale : 0;
+}
+
+struct interior_parts interior_measure(const struct box *scene, const struct box *node)
+{
+	struct interior_parts p;
+	for (int axis = 0; axis < 3; axis++)
+		measure_faces(scene, node, axis, &p.through[2 * axis]);
+	p.all = box_volume(node) / box_volume(scene);
+	for (int f = 0; f < 6; f++)
+		p.all += p.through[f];
+	return p;
+}
+
+void interior_cut(const struct box *scene, const struct box *node, const struct interior_parts *p, int axis, double plane, double half[2])
+{
+	struct box lower = *node, upper = *node, cut = *node;
+	lower.hi.a[axis] = upper.lo.a[axis] = cut.lo.a[axis] = cut.hi.a[axis] = plane;
+	double through[2], all = box_volume(scene);
+	measure_faces(scene, &cut, axis, through);
+	half[0] = box_volume(&lower) / all + p->through[2 * axis] + through[1];
+	half[1] = box_volume(&upper) / all + p->through[2 * axis + 1] + through[0];
+	for (int k = 1; k < 3; k++) {
+		int side = (axis + k) % 3;
+		measure_faces(scene, &lower, side, through);
+		half[0] += through[0] + through[1];
+		half[1] += p->through[2 * side] - through[0] + p->through[2 * side + 1] - through[1];
+	}
+}
+
+double interior_exact(const struct box *scene, const struct box *node)
+{
+	return interior_measure(scene, node).all;
 }
 
 double interior_sah(const struct box *scene, const struct box *node)
