@@ -11,6 +11,8 @@
 #include "geom/clip.h"
 #include "geom/interior.h"
 
+#include <string.h>
+
 struct metric {
 	double (*chance)(const struct box *scene, const struct box *node);
 	struct interior_slide (*slide)(const struct box *scene, const struct box *node, int axis);
@@ -41,7 +43,9 @@ static struct box bound_part(const struct plane_builder *b, const struct box *ce
 	if (within)
 		return part;
 	if (p->kind == PRIMITIVE_TRIANGLE) {
-		struct polygon cut = { 3, { p->triangle.v[0], p->triangle.v[1], p->triangle.v[2] } };
+		struct polygon cut;
+		cut.count = 3;
+		memcpy(cut.corner, p->triangle.v, sizeof p->triangle.v); /* the rest of it is no one's */
 		polygon_cut_box(&cut, cell);
 		if (cut.count > 0)
 			part = box_empty();

@@ -24,14 +24,10 @@ static uint64_t bits_of(double x)
 	return b ^ (b >> 63 ? UINT64_MAX : (uint64_t)1 << 63);
 }
 
-void reals_sort(double *v, double *spare, size_t n)
+static void sort_many(double *v, double *spare, size_t n)
 {
 	size_t count[BYTES][256] = { { 0 } };
 	double *from = v, *to = spare;
-	if (n <= FEW) {
-		sort_few(v, n);
-		return;
-	}
 	for (size_t i = 0; i < n; i++) {
 		uint64_t b = bits_of(v[i]);
 		for (int k = 0; k < BYTES; k++)
@@ -54,4 +50,12 @@ void reals_sort(double *v, double *spare, size_t n)
 	}
 	if (from != v)
 		memcpy(v, from, n * sizeof *v);
+}
+
+void reals_sort(double *v, double *spare, size_t n)
+{
+	if (n <= FEW)
+		sort_few(v, n);
+	else
+		sort_many(v, spare, n);
 }
