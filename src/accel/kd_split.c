@@ -79,5 +79,5 @@ static bool choose_balance(struct plane_builder *b, const struct plane_cell *c, 
 	return best.longer < UINT32_MAX;
 }
 
-const char *const kd_split_words[] = { "balance", NULL };
-plane_rule *const kd_split_rules[] = { choose_balance };
+const char *const kd_split_words[] = { "balance", "sah", "hq26", "fast6", "exact", NULL };
+plane_rule *const kd_split_rules[] = { choose_balance, kd_choose_sah, kd_choose_hq26, kd_choose_fast6, kd_choose_exact };

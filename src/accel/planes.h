@@ -5,7 +5,8 @@
  *   planes_build.c   from a rule to a tree
  *   planes_cells.c   its cells
  *   planes_walk.c    rays, recursively or restarting from the root
- *   kd.c, kd_split.c the kd tree's options; how it chooses planes
+ *   kd.c             the kd tree's options
+ *   kd_split.c, kd_cost.c how it chooses planes: to balance the halves; of least expected cost
  *   bsp.c            the BSP tree's */
 #ifndef ACCEL_PLANES_H
 #define ACCEL_PLANES_H
@@ -81,6 +82,7 @@ struct plane_builder {
 	double slack, margin;      /* margin: 2^-24 of the root's longest side; cells are never thinner, boxes stand off by it */
 	struct box *bounds;        /* of every primitive */
 	double *low[3], *high[3];  /* [primitives] room for a rule to work in, an array an axis */
+	double *spare;             /* and one more */
 	uint32_t *ids;             /* lists of the cells on the way down */
 	size_t id_count, id_room, node_room, box_room, ref_room;
 	struct planes tree;

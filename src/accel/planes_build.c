@@ -198,7 +198,8 @@ static int open_builder(struct plane_builder *b, struct err *e)
 {
 	const struct primitives *p = b->accel->primitives;
 	b->bounds = malloc(p->count * sizeof *b->bounds);
-	if (!b->bounds)
+	b->spare = malloc(p->count * sizeof *b->spare);
+	if (!b->bounds || !b->spare)
 		return err_memory(e, "tree of planes");
 	for (int i = 0; i < 3; i++) {
 		b->low[i] = malloc(p->count * sizeof *b->low[i]);
@@ -219,6 +220,7 @@ static int open_builder(struct plane_builder *b, struct err *e)
 static void close_builder(struct plane_builder *b)
 {
 	free(b->bounds);
+	free(b->spare);
 	for (int i = 0; i < 3; i++) {
 		free(b->low[i]);
 		free(b->high[i]);

@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-static const char *const rays_words[] = { "invariant", "lines", "segments", "segments-twice", NULL };
+static const char *const rays_words[] = { "invariant", "lines", "segments", "segments-twice", "interior", NULL };
 static const char *const sides_words[] = { "two", "one", "ext", NULL };
 
 #define AT(field) offsetof(struct measure_spec, field)
@@ -14,7 +14,8 @@ static const char *const sides_words[] = { "two", "one", "ext", NULL };
 const struct key measure_rays_keys[] = {
 	{ "rays", KEY_WORD, AT(rays), 0, 0, RAYS_INVARIANT, rays_words,
 	  "invariant: uniform by area over root and surfaces, cosine law; lines: through the root, nothing stops them; "
-	  "segments: any hit between two points of a box 20 % larger; segments-twice: each of them twice" },
+	  "segments: any hit between two points of a box 20 % larger; segments-twice: each of them twice; "
+	  "interior: from anywhere inside the root, in any direction, nothing stops them" },
 	{ "sides", KEY_WORD, AT(sides), 0, 0, SIDES_TWO, sides_words,
 	  "sides of every surface that rays start on: both, the front, or the front of closed solids" },
 	{ "count", KEY_INT, AT(count), 1, 1e12, 1e6, NULL, "number of rays" },

@@ -5,7 +5,7 @@
 #include "base/key.h"
 #include "trace/render.h"
 
-enum { RAYS_INVARIANT, RAYS_LINES, RAYS_SEGMENTS, RAYS_SEGMENTS_TWICE };
+enum { RAYS_INVARIANT, RAYS_LINES, RAYS_SEGMENTS, RAYS_SEGMENTS_TWICE, RAYS_INTERIOR };
 enum { SIDES_TWO, SIDES_ONE, SIDES_EXT };
 
 struct measure_spec {
@@ -26,7 +26,7 @@ static inline const struct key *measure_keys(const struct measure_spec *m)
 }
 
 /* Where rays start and what stops them, in one word: invariant, invariant-one-sided, invariant-ext, lines, segments,
- * segments-twice, render. */
+ * segments-twice, interior, render. */
 const char *measure_workload(const struct measure_spec *m);
 
 /* "rays=invariant count=..." or "render width=...", into out[size]. */

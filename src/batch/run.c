@@ -106,7 +106,9 @@ static enum law law_of(const struct measure_spec *m)
 	static const enum law laws[] = { LAW_RAYS, LAW_ONE_SIDED, LAW_EXT };
 	if (m->render)
 		return LAW_RAYS;
-	return m->rays == RAYS_LINES ? LAW_LINES : m->rays == RAYS_INVARIANT ? laws[m->sides] : LAW_NONE;
+	if (m->rays == RAYS_INVARIANT)
+		return laws[m->sides];
+	return m->rays == RAYS_LINES ? LAW_LINES : m->rays == RAYS_INTERIOR ? LAW_INTERIOR : LAW_NONE;
 }
 
 static int predict(struct row *row, struct built *built, const struct measure_spec *m, struct err *e)
@@ -164,7 +166,8 @@ static int measure_rays(struct run *r, struct row *row, const struct built *buil
 	/* Every scene has its own random numbers, so that deviations in one say nothing about another; its variants share them, so
 	 * that they differ by structure only. */
 	uint64_t seed = rng_mix((uint64_t)r->job->seed ^ built->accel.primitives->hash);
-	static const enum workload workloads[] = { WORKLOAD_INVARIANT, WORKLOAD_LINES, WORKLOAD_SEGMENTS, WORKLOAD_SEGMENTS_TWICE };
+	static const enum workload workloads[] = { WORKLOAD_INVARIANT, WORKLOAD_LINES, WORKLOAD_SEGMENTS, WORKLOAD_SEGMENTS_TWICE,
+	                                           WORKLOAD_INTERIOR };
 	enum workload workload = m->rays == RAYS_INVARIANT && m->sides != SIDES_TWO ? WORKLOAD_ONE_SIDED : workloads[m->rays];
 	double start = clock_seconds();
 	int status = shoot_rays(&row->actual, &built->accel, workload, (uint64_t)m->count, seed, m->alpha, m->beta,

@@ -138,7 +138,7 @@ int bvh_predict(struct prediction *p, const struct accel *a, enum law law, doubl
 {
 	struct volumes v;
 	*p = prediction_unknown();
-	if (law == LAW_ONE_SIDED || law == LAW_EXT)
+	if (law == LAW_ONE_SIDED || law == LAW_EXT || law == LAW_INTERIOR)
 		return 0;
 	int status = open_volumes(&v, a, e);
 	for (uint32_t i = 0; status == 0 && law == LAW_RAYS && i < a->primitives->count; i++) {

@@ -12,13 +12,15 @@
  * side sends rays into the structure.
  *
  * Where rays start on the front sides of closed solids only (LAW_EXT), A becomes the area of the cell's surface outside the solids,
- * 2 a becomes a, and Z = A(root) + a. */
+ * 2 a becomes a, and Z = A(root) + a. For rays from anywhere inside (LAW_INTERIOR) the measures are probabilities, that of a visit by
+ * geom/interior.h and that of a start the share of the volume, and Z = 1. */
 #include "cost/cost.h"
 
 #include "cost/bvh.h"
 #include "cost/mailbox.h"
 #include "cost/solid.h"
 #include "cost/surface.h"
+#include "geom/interior.h"
 
 #include <stdlib.h>
 
@@ -62,6 +64,8 @@ static double surface_twice(const struct sums *s, const struct frame *c)
 static double measure_visits(const struct sums *s, const struct frame *c)
 {
 	double sum = c->surface.open;
+	if (s->law == LAW_INTERIOR)
+		return interior_exact(&s->accel->root, &c->bounds);
 	if (s->law != LAW_EXT)
 		return box_area(&c->bounds) + (s->law == LAW_LINES ? 0 : surface_twice(s, c));
 	for (int f = 0; f < 6; f++)
@@ -72,6 +76,8 @@ static double measure_visits(const struct sums *s, const struct frame *c)
 /* Measure of the rays that start in a cell. */
 static double measure_starts(const struct sums *s, const struct frame *c)
 {
+	if (s->law == LAW_INTERIOR)
+		return box_volume(&c->bounds) / box_volume(&s->accel->root);
 	double sum = s->law == LAW_LINES ? 0 : s->law == LAW_EXT ? c->surface.open : 2 * c->surface.open;
 	for (int f = 0; f < 6; f++) {
 		sum += s->law == LAW_LINES ? 0 : s->law == LAW_EXT ? c->surface.facing[f] : c->surface.in_face[f];
@@ -83,6 +89,8 @@ static double measure_starts(const struct sums *s, const struct frame *c)
 /* Measure of the rays that cross face f of a cell in one direction. */
 static double measure_crossings(const struct sums *s, const struct frame *c, int f)
 {
+	if (s->law == LAW_INTERIOR)
+		return NAN;
 	if (s->law == LAW_EXT)
 		return c->outside[f] - c->surface.facing[f];
 	return face_area(&c->bounds, f) - (s->law == LAW_LINES ? 0 : c->surface.covered[f]);
@@ -163,7 +171,7 @@ static void choose_travel(struct prediction *p, enum travel travel, bool has_box
 }
 
 /* What of a prediction a law has no formula for. */
-static void clear_unknown(struct prediction *p, enum law law)
+static void clear_unknown(struct prediction *p, enum law law, bool has_boxes)
 {
 	if (law == LAW_LINES)
 		p->predicted_one = NAN;
@@ -172,6 +180,10 @@ static void clear_unknown(struct prediction *p, enum law law)
 			p->inner = p->inner_top_down = p->inner_restart = p->boxes = NAN;
 	if (law == LAW_EXT)
 		p->predicted_two_sided = NAN;
+	if (law == LAW_EXT && has_boxes) /* what of their sides lies outside the solids is not known */
+		p->inner = p->inner_top_down = p->boxes = NAN;
+	if (law == LAW_INTERIOR)
+		p->predicted = p->predicted_two_sided = p->predicted_one = NAN;
 }
 
 int cost_predict(struct prediction *p, const struct accel *a, enum law law, double alpha, double beta, struct err *e)
@@ -199,7 +211,7 @@ int cost_predict(struct prediction *p, const struct accel *a, enum law law, doub
 	free(s.open);
 	solid_close(&solid);
 	double area = law == LAW_LINES ? 0 : a->primitives->area, root = box_area(&a->root);
-	double all = root + (law == LAW_EXT ? 1 : 2) * area;
+	double all = law == LAW_INTERIOR ? 1 : root + (law == LAW_EXT ? 1 : 2) * area;
 	*p = (struct prediction){
 		.predicted = s.weight / (root + area),
 		.predicted_two_sided = s.weight / (root + 2 * area),
@@ -218,6 +230,6 @@ int cost_predict(struct prediction *p, const struct accel *a, enum law law, doub
 		.volumes = NAN, .sah = NAN, .epo = NAN, .dq = NAN, .surface_share = NAN,
 	};
 	choose_travel(p, a->travel, s.has_boxes);
-	clear_unknown(p, law);
+	clear_unknown(p, law, s.has_boxes);
 	return status;
 }

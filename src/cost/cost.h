@@ -7,9 +7,10 @@
 /* The law the rays follow. RAYS: starts on the inner side of the root and on both sides of every primitive, uniform by area,
  * cosine law, ended by the first hit. LINES: starts on the root only, nothing stops them. ONE_SIDED: RAYS from the front sides only;
  * no exact form is known in areas alone, since it matters what lies behind. EXT: ONE_SIDED where the primitives are triangles that
- * bound disjoint solids (not touching over a face either), so that no ray runs inside one. NONE: no law with a
+ * bound disjoint solids (not touching over a face either), so that no ray runs inside one. INTERIOR: starts uniform in the volume of
+ * the root, directions uniform, nothing stops them; no form for hierarchies, nor for what crossing faces costs. NONE: no law with a
  * formula. */
-enum law { LAW_RAYS, LAW_LINES, LAW_ONE_SIDED, LAW_EXT, LAW_NONE };
+enum law { LAW_RAYS, LAW_LINES, LAW_ONE_SIDED, LAW_EXT, LAW_INTERIOR, LAW_NONE };
 
 /* Expected counts per ray; costs are alpha * leaves + beta * tests. NAN: no formula. */
 struct prediction {

@@ -35,6 +35,12 @@ static inline double box_area(const struct box *b)
 	return 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
 }
 
+static inline double box_volume(const struct box *b)
+{
+	struct vec e = vec_sub(b->hi, b->lo);
+	return e.x * e.y * e.z;
+}
+
 static inline double box_diagonal(const struct box *b)
 {
 	return vec_length(vec_sub(b->hi, b->lo));

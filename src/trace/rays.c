@@ -81,12 +81,18 @@ static struct vec draw_on_root(struct draw *d, const struct box *root, double pi
 	return p;
 }
 
+/* Uniform on the unit sphere (Marsaglia 1972). */
+static struct vec draw_sphere(struct draw *d)
+{
+	double x, y, square = draw_disc(d, &x, &y), root = sqrt(1 - square);
+	return vec(2 * x * root, 2 * y * root, 1 - 2 * square);
+}
+
 /* A uniform point of a primitive; *n is the unit normal of its front. */
 static struct vec draw_on_primitive(struct draw *d, const struct primitive *p, struct vec *n)
 {
-	if (p->kind == PRIMITIVE_SPHERE) { /* Marsaglia 1972 */
-		double x, y, square = draw_disc(d, &x, &y), root = sqrt(1 - square);
-		*n = vec(2 * x * root, 2 * y * root, 1 - 2 * square);
+	if (p->kind == PRIMITIVE_SPHERE) {
+		*n = draw_sphere(d);
 		return vec_add(p->sphere.center, vec_scale(*n, p->sphere.radius));
 	}
 	const struct vec *v = p->triangle.v;
@@ -126,10 +132,23 @@ static struct ray draw_segment(const struct ray_source *s, uint64_t index)
 	return (struct ray){ .o = from, .d = vec_unit(way), .t_max = vec_length(way), .slack = s->accel->slack, .from = NO_PRIMITIVE, .any = true };
 }
 
+static struct ray draw_interior(const struct ray_source *s, uint64_t index)
+{
+	const struct box *b = &s->accel->root;
+	struct draw d = { rng_key(s->seed, WORKLOAD_INTERIOR, index), 0 };
+	struct ray r = { .t_max = INFINITY, .slack = s->accel->slack, .from = NO_PRIMITIVE, .through = true };
+	for (int i = 0; i < 3; i++)
+		r.o.a[i] = b->lo.a[i] + next(&d) * (b->hi.a[i] - b->lo.a[i]);
+	r.d = vec_unit(draw_sphere(&d));
+	return r;
+}
+
 struct ray ray_source_draw(const struct ray_source *s, uint64_t index)
 {
 	if (s->segments)
 		return draw_segment(s, index);
+	if (s->workload == WORKLOAD_INTERIOR)
+		return draw_interior(s, index);
 	const struct primitives *p = s->accel->primitives;
 	struct draw d = { rng_key(s->seed, s->workload, index), 0 };
 	struct ray r = { .t_max = INFINITY, .slack = s->accel->slack, .from = NO_PRIMITIVE, .through = s->sides == 0 };

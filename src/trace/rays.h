@@ -21,7 +21,7 @@ struct ray_source {
 int ray_source_open(struct ray_source *s, const struct accel *a, enum workload w, uint64_t seed, struct err *e);
 void ray_source_close(struct ray_source *s);
 
-/* Ray number 'index': start uniform by area over the root's inner side and the primitives' sides, direction by the cosine law
+/* Ray number 'index' of the workload; all but segments and interior rays: start uniform by area over the root's inner side and the primitives' sides, direction by the cosine law
  * about the normal there (Santalo 1976; Aronov et al. 2002, section 3). */
 struct ray ray_source_draw(const struct ray_source *s, uint64_t index);
 

@@ -8,8 +8,9 @@
 
 /* INVARIANT: the law of cost/cost.h, both sides of every primitive. ONE_SIDED: the front sides only. LINES: from the root only,
  * nothing stops them. SEGMENTS: between two points, uniform in the box of the primitives made 20 % longer on every axis; any hit will
- * do (Smits 1999); they are shot in the order drawn, not sorted. SEGMENTS_TWICE: each of them twice, one after the other. */
-enum workload { WORKLOAD_INVARIANT, WORKLOAD_ONE_SIDED, WORKLOAD_LINES, WORKLOAD_SEGMENTS, WORKLOAD_SEGMENTS_TWICE };
+ * do (Smits 1999); they are shot in the order drawn, not sorted. SEGMENTS_TWICE: each of them twice, one after the other. INTERIOR: from points uniform in
+ * the volume of the root, in uniform directions; nothing stops them (Fabianowski, Fowler, Dingliana 2009). */
+enum workload { WORKLOAD_INVARIANT, WORKLOAD_ONE_SIDED, WORKLOAD_LINES, WORKLOAD_SEGMENTS, WORKLOAD_SEGMENTS_TWICE, WORKLOAD_INTERIOR };
 
 /* A mean over rays and its standard error. */
 struct mean {
