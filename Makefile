@@ -90,7 +90,7 @@ bench: $(BUILD)/tests/bench $(BUILD)/tests/bench_bvh ## time building and shooti
 	@./$(BUILD)/tests/bench_bvh
 
 check-pov: $(BUILD)/tests/check_pov ## hold POV-Ray's example scenes against POV-Ray (needs povray, povray-examples, povray-includes)
-	@sh tests/check_pov.sh ./$(BUILD)/tests/check_pov
+	@sh tests/check_pov.sh ./$(BUILD)/tests/check_pov $(SCENES) $(LEAST)
 
 golden: export UPDATE_GOLDEN = 1
 golden: test ## rewrite tests/golden/, then read 'git diff'
