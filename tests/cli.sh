@@ -112,7 +112,7 @@ expect 2 "lies outside the job file's folder" "$raycost" run "$work/outside.yaml
 expect 0 '48 rows, 0 failed' "$raycost" run jobs/pov.yaml --set count=5000 --set max_depth=5 --set resolution=2 -o "$work/pov"
 expect 0 '48 rows, all within' awk -F, '
 	NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^z_/) column[i] }
-	NR > 1 { for (i in column) { all += $i != ""; far += $i > 4 || $i < -4 } }
+	NR > 1 { for (i in column) { all += $i != ""; far += ($i + 0 > 4 || $i + 0 < -4) } }
 	END { if (all >= 3 * (NR - 1) && !far) print NR - 1 " rows, all within" }' "$work/pov/counts.csv"
 for scene in jobs/scenes/*.pov; do expect 0 'primitives' "$raycost" info --strict --resolution 2 "$scene"; done
 
