@@ -141,13 +141,14 @@ static void sum_up(struct primitives *p)
 	}
 }
 
-/* Whether what is near to each other, 1e-9 of the scene's diagonal (geom/ray.h), is still some roundings of a coordinate. */
+/* Whether what is near to each other, 1e-9 of the scene's diagonal (geom/ray.h), is still some roundings of a coordinate; and whether
+ * products of three lengths are still numbers. */
 static bool is_resolved(const struct box *b)
 {
-	double far = 0;
+	double far = 0, diagonal = box_diagonal(b);
 	for (int i = 0; i < 3; i++)
 		far = fmax(far, fmax(fabs(b->lo.a[i]), fabs(b->hi.a[i])));
-	return far * 0x1p-50 <= 1e-9 * box_diagonal(b);
+	return diagonal <= 1e100 && far * 0x1p-50 <= 1e-9 * diagonal;
 }
 
 int primitives_make(struct primitives *p, const struct scene *s, enum curves curves, int resolution, const char *name,
@@ -174,7 +175,7 @@ int primitives_make(struct primitives *p, const struct scene *s, enum curves cur
 	sum_up(p);
 	if (!is_resolved(&p->bounds)) {
 		primitives_free(p);
-		return err_at(e, STATUS_INPUT, name, 0, "the scene lies too far from the origin for its size");
+		return err_at(e, STATUS_INPUT, name, 0, "the scene is too large, or lies too far from the origin for its size");
 	}
 	return 0;
 }

@@ -24,7 +24,7 @@ enum curves { CURVES_KEEP, CURVES_TESSELLATE };
 
 /* Fill *p (zeroed by the caller) from the scene. Polygons of more than three corners are triangulated: n - 2 triangles that
  * cover the polygon, concave ones too. 0, or -1 and *e: no primitive with positive area left, farther from the origin
- * than a million of its diagonals, memory. name: for messages. */
+ * than a million of its diagonals or larger than 1e100, memory. name: for messages. */
 int primitives_make(struct primitives *p, const struct scene *s, enum curves curves, int resolution, const char *name,
                     struct err *e);
 
