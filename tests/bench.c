@@ -5,35 +5,16 @@
 #include "spd/spd.h"
 #include "trace/rays.h"
 #include "trace/sort.h"
+#include "tests/timing.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #ifdef HAVE_EMBREE
 #include <embree3/rtcore.h>
 #endif
 
 enum { RAYS = 1000000, ROUNDS = 9 };
-
-static double seconds(void)
-{
-	struct timespec t;
-	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int compare(const void *a, const void *b)
-{
-	double x = *(const double *)a, y = *(const double *)b;
-	return (x > y) - (x < y);
-}
-
-static double median(double *values, int n)
-{
-	qsort(values, (size_t)n, sizeof *values, compare);
-	return values[n / 2];
-}
 
 /* A contestant: shoots all rays once and returns how many hit. */
 struct peer {

@@ -8,16 +8,16 @@
 #include "spd/spd.h"
 #include "trace/camera.h"
 #include "trace/rays.h"
+#include "tests/timing.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #ifdef HAVE_EMBREE
 #include <embree3/rtcore.h>
 #endif
 
-enum { ROUNDS_MOST = 99, PEERS_MOST = 8, CAMERA = 1024 };
+enum { PEERS_MOST = 8, CAMERA = 1024 };
 
 #define OFF 1e-4
 
@@ -25,27 +25,6 @@ struct setting {
 	int rounds;
 	size_t rays;
 };
-
-static double seconds(void)
-{
-	struct timespec t;
-	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int compare(const void *a, const void *b)
-{
-	double x = *(const double *)a, y = *(const double *)b;
-	return (x > y) - (x < y);
-}
-
-static double median(const double *values, int n)
-{
-	double sorted[ROUNDS_MOST];
-	memcpy(sorted, values, (size_t)n * sizeof *sorted);
-	qsort(sorted, (size_t)n, sizeof *sorted, compare);
-	return sorted[n / 2];
-}
 
 /* Rays of one kind. */
 struct set {

@@ -33,9 +33,20 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#define TALLY_COUNTS(X) X(leaves) X(tests) X(tests_made) X(inner_step) X(inner_start) X(boxes) X(hits)
+
 struct tally {
-	uint64_t leaves, tests, tests_made, inner_step, inner_start, boxes, hits;
+#define COUNT_OF(field) uint64_t field;
+	TALLY_COUNTS(COUNT_OF)
+#undef COUNT_OF
 };
+
+static inline void tally_add(struct tally *to, const struct tally *n)
+{
+#define ADD(field) to->field += n->field;
+	TALLY_COUNTS(ADD)
+#undef ADD
+}
 
 /* How rays get from one leaf to the next: over links between neighbours, which cells list as 'steps'; by a recursion that visits
  * every inner node around a visited leaf once; from the root anew for every leaf. */

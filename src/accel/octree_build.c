@@ -2,6 +2,7 @@
  * and link the leaves. */
 #include "accel/octree.h"
 #include "accel/screen.h"
+#include "base/grow.h"
 #include "geom/triangle.h"
 
 #include <stdlib.h>
@@ -17,26 +18,10 @@ struct box octree_bounds(const struct box *root, const struct octree *o, const s
 	return b;
 }
 
-/* Make room for 'more' elements of 'size' bytes behind 'count'. */
-static int reserve(void **array, size_t count, size_t *room, size_t more, size_t size, struct err *e)
-{
-	if (*room - count >= more)
-		return 0;
-	size_t want = *room * 2 > count + more ? *room * 2 : count + more;
-	if (want > UINT32_MAX - 16)
-		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "octree: more than 2^32 nodes or references");
-	void *grown = realloc(*array, want * size);
-	if (!grown)
-		return err_memory(e, "octree");
-	*array = grown;
-	*room = want;
-	return 0;
-}
-
 static int reserve_refs(struct octree_builder *b, size_t more, struct err *e)
 {
 	void *refs = b->tree.refs;
-	int status = reserve(&refs, b->tree.ref_count, &b->ref_room, more, sizeof *b->tree.refs, e);
+	int status = array_reserve(&refs, b->tree.ref_count, &b->ref_room, more, sizeof *b->tree.refs, "octree", e);
 	b->tree.refs = refs;
 	return status;
 }
@@ -44,7 +29,7 @@ static int reserve_refs(struct octree_builder *b, size_t more, struct err *e)
 static int reserve_nodes(struct octree_builder *b, size_t more, struct err *e)
 {
 	void *nodes = b->tree.nodes;
-	int status = reserve(&nodes, b->tree.node_count, &b->node_room, more, sizeof *b->tree.nodes, e);
+	int status = array_reserve(&nodes, b->tree.node_count, &b->node_room, more, sizeof *b->tree.nodes, "octree", e);
 	b->tree.nodes = nodes;
 	return status;
 }

@@ -1,5 +1,6 @@
 /* Building a tree of planes, depth first: lists wait on a stack, nodes and leaves' lists go straight to where they stay. */
 #include "accel/planes.h"
+#include "base/grow.h"
 #include "geom/triangle.h"
 
 #include <stdlib.h>
@@ -10,28 +11,12 @@ const char *const plane_travel_words[] = { "recursive", "restart", NULL };
 const char *const plane_mailbox_words[] = { "none", "one", "full", NULL };
 const char *const plane_stop_words[] = { "none", "model", "exact", NULL };
 
-/* Make room for 'more' elements of 'size' bytes behind 'count'. 0, or -1 and *e. */
-static int reserve(void **array, size_t count, size_t *room, size_t more, size_t size, struct err *e)
-{
-	if (*room - count >= more)
-		return 0;
-	size_t want = *room * 2 > count + more ? *room * 2 : count + more;
-	if (want > UINT32_MAX - 16)
-		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "tree of planes: more than 2^32 nodes or references");
-	void *grown = realloc(*array, want * size);
-	if (!grown)
-		return err_memory(e, "tree of planes");
-	*array = grown;
-	*room = want;
-	return 0;
-}
-
 /* The same for each of the builder's arrays. */
 #define RESERVE(what, array, count, room) \
 	static int reserve_##what(struct plane_builder *b, size_t more, struct err *e) \
 	{ \
 		void *grown = b->array; \
-		int status = reserve(&grown, b->count, &b->room, more, sizeof *b->array, e); \
+		int status = array_reserve(&grown, b->count, &b->room, more, sizeof *b->array, "tree of planes", e); \
 		b->array = grown; \
 		return status; \
 	}

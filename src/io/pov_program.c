@@ -20,24 +20,6 @@ static double repeat(const struct pov_node *n, double *slots)
 	return sum;
 }
 
-static double operate(uint32_t op, double a, double b)
-{
-	switch (op) {
-	case '+': return a + b;
-	case '-': return a - b;
-	case '*': return a * b;
-	case '/': return a / b;
-	case '<': return a < b;
-	case '>': return a > b;
-	case TOKEN_LE: return a <= b + 1e-10;
-	case TOKEN_GE: return a + 1e-10 >= b;
-	case '=': return fabs(a - b) < 1e-10;
-	case TOKEN_NE: return fabs(a - b) >= 1e-10;
-	case '&': return value_true(a) && value_true(b);
-	default: return value_true(a) || value_true(b);
-	}
-}
-
 static double evaluate(const struct pov_node *n, double *slots)
 {
 	double a[SLOTS_MOST], r = 0;
@@ -45,7 +27,7 @@ static double evaluate(const struct pov_node *n, double *slots)
 	switch (n->kind) {
 	case NODE_NUMBER: return n->number;
 	case NODE_SLOT: return slots[n->slot];
-	case NODE_OPERATE: return operate(n->word, evaluate(n->first, slots), evaluate(n->first->next, slots));
+	case NODE_OPERATE: return number_operate(n->word, evaluate(n->first, slots), evaluate(n->first->next, slots));
 	case NODE_SIGN: return n->word == '-' ? -evaluate(n->first, slots) : fabs(evaluate(n->first, slots)) < 1e-10;
 	case NODE_CHOOSE: return evaluate(value_true(evaluate(n->first, slots)) ? n->first->next : n->first->next->next, slots);
 	case NODE_SUM: case NODE_PRODUCT: return repeat(n, slots);

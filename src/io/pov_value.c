@@ -11,7 +11,7 @@ const char *value_type_name(enum pov_type type)
 	return names[type];
 }
 
-static double operate(int op, double a, double b)
+double number_operate(uint32_t op, double a, double b)
 {
 	switch (op) {
 	case '+': return a + b;
@@ -45,7 +45,7 @@ bool value_operate(int op, const struct pov_value *a, const struct pov_value *b,
 	int count = a->count > b->count ? a->count : b->count;
 	struct pov_value r = { .type = TYPE_NUMBER, .count = (uint8_t)count, .color = a->color || b->color };
 	for (int i = 0; i < count; i++)
-		r.a[i] = operate(op, value_component(a, i), value_component(b, i));
+		r.a[i] = number_operate((uint32_t)op, value_component(a, i), value_component(b, i));
 	*out = r;
 	return true;
 }

@@ -132,6 +132,9 @@ static inline bool value_true(double x)
 	return x >= 1e-10 || x <= -1e-10;
 }
 
+/* a op b of numbers; op: a character, or TOKEN_LE, TOKEN_GE, TOKEN_NE. Relations and logic give 0 or 1. */
+double number_operate(uint32_t op, double a, double b);
+
 /* A copy for an assignment: arrays in depth, the rest shared. nesting of arrays at most 100. false: memory out, or too deep. */
 bool value_copy(struct arena *mem, const struct pov_value *from, struct pov_value *to);
 

@@ -198,17 +198,6 @@ static void keep_segment(struct block *b, const struct ray *r, const struct hit 
 	g->ray.t_max = h->t;
 }
 
-static void add_tally(struct tally *to, const struct tally *n)
-{
-	to->leaves += n->leaves;
-	to->tests += n->tests;
-	to->tests_made += n->tests_made;
-	to->inner_step += n->inner_step;
-	to->inner_start += n->inner_start;
-	to->boxes += n->boxes;
-	to->hits += n->hits;
-}
-
 static void count_ray(struct block *b, const struct origin *from, const struct tally *n)
 {
 	struct class_tally *c = &b->sums->classes[from->class];
@@ -217,8 +206,8 @@ static void count_ray(struct block *b, const struct origin *from, const struct t
 		c->missed++;
 		return;
 	}
-	add_tally(&c->sum, n);
-	add_tally(&b->tally[from->sample], n);
+	tally_add(&c->sum, n);
+	tally_add(&b->tally[from->sample], n);
 	b->rays[from->sample]++;
 }
 
@@ -260,14 +249,8 @@ static void sum_samples(struct block *b, size_t count)
 	for (size_t i = 0; i < count; i++) {
 		const struct tally *n = &b->tally[i];
 		uint64_t rays = b->rays[i];
-#define ADD(field) do { s->square.field += n->field * n->field; s->cross.field += n->field * rays; } while (0)
-		ADD(leaves);
-		ADD(tests);
-		ADD(tests_made);
-		ADD(inner_step);
-		ADD(inner_start);
-		ADD(boxes);
-		ADD(hits);
+#define ADD(field) s->square.field += n->field * n->field; s->cross.field += n->field * rays;
+		TALLY_COUNTS(ADD)
 #undef ADD
 		s->steps_tests += accel_steps(b->render->accel, n) * n->tests;
 		s->step_start += n->inner_step * n->inner_start;
@@ -322,25 +305,19 @@ static void sum_up(struct rendering *out, const struct render *r, size_t blocks)
 		for (int c = 0; c < RAY_CLASSES; c++) {
 			out->classes[c].rays += b->classes[c].rays;
 			out->classes[c].missed += b->classes[c].missed;
-			add_tally(&out->classes[c].sum, &b->classes[c].sum);
-			add_tally(&a->sum, &b->classes[c].sum);
+			tally_add(&out->classes[c].sum, &b->classes[c].sum);
+			tally_add(&a->sum, &b->classes[c].sum);
 		}
-		add_tally(&all.square, &b->square);
-		add_tally(&all.cross, &b->cross);
+		tally_add(&all.square, &b->square);
+		tally_add(&all.cross, &b->cross);
 		all.rays += b->rays;
 		all.rays_square += b->rays_square;
 		all.steps_tests += b->steps_tests;
 		all.step_start += b->step_start;
 	}
 	a->rays = all.rays;
-#define MEAN(field) a->field = ratio_mean((double)a->sum.field, (double)all.square.field, (double)all.cross.field, &all, r->samples)
-	MEAN(leaves);
-	MEAN(tests);
-	MEAN(tests_made);
-	MEAN(inner_step);
-	MEAN(inner_start);
-	MEAN(boxes);
-	MEAN(hits);
+#define MEAN(field) a->field = ratio_mean((double)a->sum.field, (double)all.square.field, (double)all.cross.field, &all, r->samples);
+	TALLY_COUNTS(MEAN)
 #undef MEAN
 	a->inner = ratio_mean((double)a->sum.inner_step + (double)a->sum.inner_start,
 	                      (double)all.square.inner_step + (double)all.square.inner_start + 2 * (double)all.step_start,

@@ -26,14 +26,9 @@ struct run {
 
 static void add_ray(struct block *b, const struct accel *a, const struct tally *n)
 {
-#define ADD(field) do { b->sum.field += n->field; b->square.field += n->field * n->field; } while (0)
-	ADD(leaves);
-	ADD(tests);
-	ADD(tests_made);
-	ADD(inner_step);
-	ADD(inner_start);
-	ADD(boxes);
-	ADD(hits);
+	tally_add(&b->sum, n);
+#define ADD(field) b->square.field += n->field * n->field;
+	TALLY_COUNTS(ADD)
 #undef ADD
 	b->steps_tests += accel_steps(a, n) * n->tests;
 	b->step_start += n->inner_step * n->inner_start;
@@ -91,7 +86,10 @@ static struct mean mean_of(double sum, double square, double n)
 
 /* Squares of counts as doubles: only the standard errors need them. */
 struct squares {
-	double leaves, tests, tests_made, inner_step, inner_start, boxes, hits, steps_tests, step_start;
+#define SQUARE(field) double field;
+	TALLY_COUNTS(SQUARE)
+#undef SQUARE
+	double steps_tests, step_start;
 };
 
 /* Merge the blocks in order. */
@@ -102,27 +100,16 @@ static void sum_up(struct actual *out, const struct run *run, size_t blocks, dou
 	double n = (double)run->count;
 	for (size_t i = 0; i < blocks; i++) {
 		const struct block *b = &run->blocks[i];
-#define ADD(field) do { sum->field += b->sum.field; q.field += (double)b->square.field; } while (0)
-		ADD(leaves);
-		ADD(tests);
-		ADD(tests_made);
-		ADD(inner_step);
-		ADD(inner_start);
-		ADD(boxes);
-		ADD(hits);
+		tally_add(sum, &b->sum);
+#define ADD(field) q.field += (double)b->square.field;
+		TALLY_COUNTS(ADD)
 #undef ADD
 		q.steps_tests += (double)b->steps_tests;
 		q.step_start += (double)b->step_start;
 		out->walk_seconds += b->seconds;
 	}
-#define MEAN(field) out->field = mean_of((double)sum->field, q.field, n)
-	MEAN(leaves);
-	MEAN(tests);
-	MEAN(tests_made);
-	MEAN(inner_step);
-	MEAN(inner_start);
-	MEAN(boxes);
-	MEAN(hits);
+#define MEAN(field) out->field = mean_of((double)sum->field, q.field, n);
+	TALLY_COUNTS(MEAN)
 #undef MEAN
 	double steps = run->source.accel->volumes ? q.inner_step : q.leaves;
 	out->cost = mean_of(alpha * (double)accel_steps(run->source.accel, sum) + beta * (double)sum->tests,
