@@ -13,7 +13,7 @@
  * The cells of a bounding volume hierarchy are boxes that may overlap and leave gaps. A node is visited when its box, closed, is met
  * within slack by what is left of the ray at that moment: up to the nearest hit so far. leaves and inner_step count the nodes
  * visited (inner_start stays 0), tests the primitives listed in visited leaves; a ray that leads out of the root visits what it
- * touches. A node of k children costs k box tests, which are shared by all children: the cost of such a structure is
+ * touches and hits nothing. A node of k children costs k box tests, which are shared by all children: the cost of such a structure is
  * alpha * inner_step + beta * tests (Aila, Karras, Laine 2013 weigh them 1.2 : 1).
  *
  * Rules that make the closed forms of cost/ exact:

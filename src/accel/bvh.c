@@ -117,6 +117,7 @@ WALK walk(const struct accel *a, const struct ray *r, struct hit *h, struct tall
 			node = going ? (--top)->node : 0;
 		}
 	}
+	root_drop_hit(&a->root, r, a->slack, h);
 	COUNT(hits, h->id != NO_PRIMITIVE);
 	return h->id != NO_PRIMITIVE;
 }

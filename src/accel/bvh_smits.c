@@ -1,6 +1,7 @@
 /* The steps of Smits 1999 ("Efficiency issues for ray tracing", sections 4 and 5), each a traversal of its own: they visit a subtree
  * in a fixed order, and differ in how a box is tested, how the next node is found, and when they stop. */
 #include "accel/bvh.h"
+#include "accel/root.h"
 #include "accel/walk.h"
 
 /* A node as a recursive builder leaves it. skip: the node after its subtree. */
@@ -184,6 +185,7 @@ static inline __attribute__((always_inline)) bool walk(const struct accel *a, co
 			walk_array(&w, tally, count, true);
 		break;
 	}
+	root_drop_hit(&a->root, r, a->slack, h);
 	COUNT(hits, h->id != NO_PRIMITIVE);
 	return h->id != NO_PRIMITIVE;
 }

@@ -14,12 +14,6 @@
 	static bool shoot_counted(const struct accel *a, const struct ray *r, struct hit *h, struct tally *n) \
 	{ return walk(a, r, h, n, true); }
 
-/* No hit yet. */
-static inline struct hit hit_none(const struct ray *r)
-{
-	return (struct hit){ r->t_max, NO_PRIMITIVE };
-}
-
 /* A direction's component, never zero, so that it has an inverse. */
 static inline double nonzero(double d)
 {

@@ -28,6 +28,12 @@ struct hit {
 	uint32_t id;
 };
 
+/* No hit yet. */
+static inline struct hit hit_none(const struct ray *r)
+{
+	return (struct hit){ r->t_max, NO_PRIMITIVE };
+}
+
 /* Whether a root t of primitive 'id' may end the ray, by where the ray starts (design rule 4): behind the start it may not; at
  * the start only a primitive of higher id than the start's may, so that a zero-length ray between coincident surfaces exists
  * once. The start primitive itself is the caller's business. */
