@@ -244,6 +244,11 @@ expect 0 '18 rows, 0 failed' page -o "$work/pages" --shard 0/2
 expect 0 '36 rows of 2 shards' "$raycost" merge "$work/pages"
 same "$work/page/counts.csv" "$work/pages/counts.csv"
 for file in scenes/tetra-2.nff.gz drawings/tetra-2.dat images/tetra-2.png; do same "$work/page/$file" "$work/pages/$file"; done
+# Going on after the first structure's rows must not draw the scene with the second.
+mkdir "$work/half" && cp -r "$work/page/drawings" "$work/half/" && head -n 8 "$work/page/counts.csv" >"$work/half/counts.csv"
+expect 0 '36 rows, 0 failed' page -o "$work/half"
+same "$work/page/counts.csv" "$work/half/counts.csv"
+same "$work/page/drawings/tetra-2.dat" "$work/half/drawings/tetra-2.dat"
 expect 0 'report.html' "$raycost" report "$work/pages"
 expect 2 'No such file' "$raycost" report "$work/nowhere"
 expect 0 'primary' "$raycost" render "$work/gears.nff" --width 16 --height 16 -o "$work/gears.png" --max_depth 4

@@ -176,6 +176,36 @@ static void threads_do_not_matter(void **state)
 	primitives_free(&p);
 }
 
+/* Rays go on until every count is as sure as asked for; what is found is what as many rays find at once. */
+static void more_rays_until_sure(void **state)
+{
+	(void)state;
+	enum { FEW = 3001 };
+	const double error = 0.02;
+	struct primitives p = make_spd("balls", 1, true);
+	struct err e = { 0 };
+	struct accel a;
+	struct actual few, sure, once;
+	const struct octree_options o = { .max_objects = 2, .max_depth = 8, .root = ROOT_BOX };
+	assert_int_equal(accel_build(&a, accel_find("octree"), &o, &p, &e), 0);
+	assert_int_equal(shoot_rays_until(&sure, &a, WORKLOAD_INVARIANT, FEW, error, 7, 1, 1, 2, NULL, &e), 0);
+	assert_int_equal(shoot_rays(&few, &a, WORKLOAD_INVARIANT, FEW, 7, 1, 1, 2, NULL, &e), 0);
+	assert_int_equal(shoot_rays(&once, &a, WORKLOAD_INVARIANT, sure.rays, 7, 1, 1, 1, NULL, &e), 0);
+	assert_true(few.tests.se > error * few.tests.mean && few.rays == FEW);
+	assert_true(sure.rays > FEW && sure.rays < FEW * RAYS_GROWTH);
+	assert_memory_equal(&sure.sum, &once.sum, sizeof sure.sum);
+	const struct mean counts[][2] = { { sure.cost, once.cost }, { sure.leaves, once.leaves }, { sure.tests, once.tests },
+		                          { sure.inner_step, once.inner_step }, { sure.inner_start, once.inner_start } };
+	for (int i = 0; i < 5; i++) {
+		assert_true(counts[i][0].se <= error * counts[i][0].mean);
+		assert_near(counts[i][0].se, counts[i][1].se, 1e-9 * counts[i][1].se);
+	}
+	assert_int_equal(shoot_rays_until(&sure, &a, WORKLOAD_INVARIANT, 10, 1e-9, 7, 1, 1, 2, NULL, &e), 0);
+	assert_int_equal(sure.rays, 10 * RAYS_GROWTH);
+	accel_free(&a);
+	primitives_free(&p);
+}
+
 int main(void)
 {
 	static struct family tetra = { "tetra", false }, teapot = { "teapot", false }, gears = { "gears", false },
@@ -196,6 +226,7 @@ int main(void)
 		cmocka_unit_test(the_list_is_exact_too),
 		cmocka_unit_test(bounding_box_lists_are_exact_too),
 		cmocka_unit_test(threads_do_not_matter),
+		cmocka_unit_test(more_rays_until_sure),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,6 +19,8 @@ const struct key measure_rays_keys[] = {
 	{ "sides", KEY_WORD, AT(sides), 0, 0, SIDES_TWO, sides_words,
 	  "sides of every surface that rays start on: both, the front, or the front of closed solids" },
 	{ "count", KEY_INT, AT(count), 1, 1e12, 1e6, NULL, "number of rays" },
+	{ "error", KEY_REAL, AT(error), 0, 1, 0, NULL, "more rays, up to 100 times as many, until the standard error of every count is at "
+	  "most this share of its mean; 0: no more" },
 	WEIGHTS
 };
 

@@ -13,6 +13,7 @@ struct measure_spec {
 	double alpha, beta;
 	int rays, sides;             /* if not render */
 	int64_t count;
+	double error;
 	struct render_options image; /* if render */
 	int64_t pilot_width, pilot_height;
 };

@@ -37,7 +37,7 @@ struct bench {
 	struct scene setting;
 	struct imaging *imagings; /* for every measure of the experiment */
 	uint64_t text_hash;       /* of its NFF text: view, lights and materials too */
-	bool loaded, drawn;
+	bool loaded;
 	struct err fault; /* why not loaded */
 };
 
@@ -170,8 +170,8 @@ static int measure_rays(struct run *r, struct row *row, const struct built *buil
 	                                           WORKLOAD_INTERIOR };
 	enum workload workload = m->rays == RAYS_INVARIANT && m->sides != SIDES_TWO ? WORKLOAD_ONE_SIDED : workloads[m->rays];
 	double start = clock_seconds();
-	int status = shoot_rays(&row->actual, &built->accel, workload, (uint64_t)m->count, seed, m->alpha, m->beta,
-	                        r->options->threads, r->options->stop, fault);
+	int status = shoot_rays_until(&row->actual, &built->accel, workload, (uint64_t)m->count, m->error, seed, m->alpha,
+	                              m->beta, r->options->threads, r->options->stop, fault);
 	*seconds = clock_seconds() - start;
 	return status;
 }
@@ -198,6 +198,30 @@ static int measure_row(struct run *r, struct row *row, struct bench *bench, stru
 	return write_row(r, row, false);
 }
 
+/* A scene is drawn with the first structure of the first experiment it is in, so that neither shards nor resumed runs draw another. */
+static bool is_drawn(const struct run *r, const struct bench *bench, const struct built *built)
+{
+	const struct scene_spec *scene = r->job->scenes;
+	if (!r->job->save_drawings || built->structure != &r->job->structures[bench->experiment->structure_first])
+		return false;
+	while (strcmp(scene->name, bench->scene->name) != 0)
+		scene++;
+	return scene == bench->scene;
+}
+
+/* A structure that cannot be built is a fault of its rows. 0, or -1 and the run's error. */
+static int build(struct run *r, const struct bench *bench, struct built *built)
+{
+	double start = clock_seconds();
+	built->tried = true;
+	built->ok = stop_build(&built->accel, built->structure->ops, built->structure->options, &bench->primitives,
+	                       r->options->threads, &built->stopped_at, &built->fault) == 0;
+	built->seconds = clock_seconds() - start;
+	if (!built->ok || !is_drawn(r, bench, built))
+		return 0;
+	return keep_drawing(r->record.folder, bench->scene->name, &built->accel, (uint64_t)r->job->seed, r->err);
+}
+
 static int do_row(struct run *r, struct bench *bench, struct built *built, size_t measure)
 {
 	struct row row;
@@ -210,19 +234,10 @@ static int do_row(struct run *r, struct bench *bench, struct built *built, size_
 		return record_keep(&r->record, old, r->err);
 	if (!bench->loaded)
 		return write_failure(r, &row, &bench->fault);
-	if (!built->tried) {
-		double start = clock_seconds();
-		built->tried = true;
-		built->ok = stop_build(&built->accel, built->structure->ops, built->structure->options, &bench->primitives,
-		                       r->options->threads, &built->stopped_at, &built->fault) == 0;
-		built->seconds = clock_seconds() - start;
-	}
+	if (!built->tried && build(r, bench, built) != 0)
+		return -1;
 	if (!built->ok)
 		return write_failure(r, &row, &built->fault);
-	if (r->job->save_drawings && !bench->drawn &&
-	    keep_drawing(r->record.folder, bench->scene->name, &built->accel, (uint64_t)r->job->seed, r->err) != 0)
-		return -1;
-	bench->drawn = true;
 	return measure_row(r, &row, bench, built, measure);
 }
 

@@ -31,4 +31,11 @@ struct actual {
 int shoot_rays(struct actual *out, const struct accel *a, enum workload w, uint64_t count, uint64_t seed, double alpha,
                double beta, int threads, const atomic_int *stop, struct err *e);
 
+/* As shoot_rays, and then on until the standard error of cost, leaves, tests, inner_step and inner_start each is at most 'error'
+ * (more than 0; 0: never) of its mean, or RAYS_GROWTH times 'count' rays are shot. out->rays: how many it came to, which follows from the
+ * counts alone. */
+enum { RAYS_GROWTH = 100 };
+int shoot_rays_until(struct actual *out, const struct accel *a, enum workload w, uint64_t count, double error, uint64_t seed,
+                     double alpha, double beta, int threads, const atomic_int *stop, struct err *e);
+
 #endif
