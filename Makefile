@@ -14,12 +14,14 @@ PACKAGES := gcc make git libc6-dev libyaml-dev zlib1g-dev libpng-dev libcmocka-d
             libjpeg-dev libassimp-dev
 VERSION := $(shell git describe --always --dirty --tags 2>/dev/null || echo unknown)
 
-# Files for wider registers than every processor has; one is compiled a second time. Which are used is decided when the program runs.
+# Files for wider registers than every processor has; one is compiled two times more. Which are used is decided when the program runs.
 ifeq ($(shell uname -m),x86_64)
-WIDE    := $(BUILD)/src/accel/octree_crowd.avx2.o
+WIDE    := $(BUILD)/src/accel/octree_crowd.avx2.o $(BUILD)/src/accel/octree_crowd.avx512.o
+AVX512  := -mavx2 -mfma -mbmi -mlzcnt -mavx512f -mavx512vl -mavx512dq
 %.avx2.o: SIMD := -mavx2
+%.avx512.o: SIMD := $(AVX512)
 %/bvh8_avx2.o: SIMD := -mavx2 -mfma -mbmi -mlzcnt
-%/bvh8_avx512.o: SIMD := -mavx2 -mfma -mbmi -mlzcnt -mavx512f -mavx512vl -mavx512dq
+%/bvh8_avx512.o: SIMD := $(AVX512)
 endif
 OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c)) $(WIDE)
 TESTS   := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
@@ -118,6 +120,9 @@ build/fuzz/%.o: %.c
 build/fuzz/%.avx2.o: %.c
 	@mkdir -p $(@D)
 	clang $(FUZZ_FLAGS) -MMD -MP -c $< -o $@
+build/fuzz/%.avx512.o: %.c
+	@mkdir -p $(@D)
+	clang $(FUZZ_FLAGS) -MMD -MP -c $< -o $@
 build/fuzz/fuzz_%: build/fuzz/tests/fuzz/fuzz_%.o build/fuzz/tests/fuzz/fuzz.o $(OBJ:$(BUILD)/%=build/fuzz/%)
 	clang $(FUZZ_FLAGS) -fsanitize=fuzzer $^ -o $@ $(LIBS)
 
@@ -135,6 +140,9 @@ $(BUILD)/tests/check_pov: $(BUILD)/tests/check_pov.o $(OBJ)
 $(BUILD)/tests/check_pov.o: CFLAGS += -D_DEFAULT_SOURCE
 
 $(BUILD)/%.avx2.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(CF) -MMD -MP -c $< -o $@
+$(BUILD)/%.avx512.o: %.c
 	@mkdir -p $(@D)
 	$(CC) $(CF) -MMD -MP -c $< -o $@
 

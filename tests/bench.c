@@ -145,10 +145,10 @@ static void bench_build(const char *name, const struct primitives *p)
 	accel_free(&a);
 }
 
-static double build_octree(struct accel *a, const struct primitives *p)
+static double build_octree(struct accel *a, const struct primitives *p, int max_objects)
 {
 	double took[ROUNDS];
-	const struct octree_options o = { .max_objects = 10, .max_depth = 8, .root = ROOT_BOX };
+	const struct octree_options o = { .max_objects = max_objects, .max_depth = 8, .root = ROOT_BOX };
 	for (int i = 0; i < ROUNDS; i++) {
 		struct err e = { 0 };
 		if (i)
@@ -187,6 +187,8 @@ static void print_peers(struct peer *peers, int count)
 	}
 }
 
+static const int capacities[] = { 2, 5, 10 }; /* of the sweep's octrees */
+
 static int bench_scene(const char *family, int size)
 {
 	struct err e = { 0 };
@@ -203,26 +205,30 @@ static int bench_scene(const char *family, int size)
 	}
 	scene_free(&s);
 	printf("%s -s %d: %u triangles\n", family, size, p.count);
-	struct accel tree;
-	double took = build_octree(&tree, &p);
-	printf("  octree max_objects=10 max_depth=8: built in %.3f s, %.2f M triangles/s, %.0f bytes a leaf\n", took,
-	       p.count / took / 1e6, (double)tree.mem.held / (double)tree.leaves);
+	struct accel trees[3];
+	for (int i = 0; i < 3; i++) {
+		double took = build_octree(&trees[i], &p, capacities[i]);
+		printf("  octree max_objects=%d max_depth=8: built in %.3f s, %.2f M triangles/s, %.0f bytes a leaf\n", capacities[i], took,
+		       p.count / took / 1e6, (double)trees[i].mem.held / (double)trees[i].leaves);
+	}
 	bench_build("kd", &p);
 	bench_build("bsp", &p);
 	bench_build("grid", &p);
 	struct ray_source source;
 	struct ray *rays = malloc(RAYS * sizeof *rays);
-	if (!rays || ray_source_open(&source, &tree, WORKLOAD_INVARIANT, 2002, &e) != 0)
+	if (!rays || ray_source_open(&source, &trees[2], WORKLOAD_INVARIANT, 2002, &e) != 0)
 		return 1;
 	double start = seconds();
 	for (uint64_t i = 0; i < RAYS; i++)
 		rays[i] = ray_source_draw(&source, i);
 	printf("  rays drawn: %.1f M/s\n", RAYS / (seconds() - start) / 1e6);
 	struct peer peers[] = {
-		{ .name = "octree, many, sorted, counted", .shoot = shoot_sorted, .what = &tree },
-		{ .name = "octree, many, counted", .shoot = shoot_many, .what = &tree },
-		{ .name = "octree, one by one, counted", .shoot = shoot_counted, .what = &tree },
-		{ .name = "octree, one by one", .shoot = shoot_fast, .what = &tree },
+		{ .name = "max_objects=2, sorted, counted", .shoot = shoot_sorted, .what = &trees[0] },
+		{ .name = "max_objects=5, sorted, counted", .shoot = shoot_sorted, .what = &trees[1] },
+		{ .name = "max_objects=10, sorted, counted", .shoot = shoot_sorted, .what = &trees[2] },
+		{ .name = "many, counted", .shoot = shoot_many, .what = &trees[2] },
+		{ .name = "one by one, counted", .shoot = shoot_counted, .what = &trees[2] },
+		{ .name = "one by one", .shoot = shoot_fast, .what = &trees[2] },
 #ifdef HAVE_EMBREE
 		{ .name = "Embree high", .shoot = shoot_embree },
 #endif
@@ -238,7 +244,7 @@ static int bench_scene(const char *family, int size)
 	run_rounds(peers, count, rays);
 	double counting[ROUNDS];
 	for (int k = 0; k < ROUNDS; k++)
-		counting[k] = peers[2].seconds[k] / peers[3].seconds[k];
+		counting[k] = peers[4].seconds[k] / peers[5].seconds[k];
 	print_peers(peers, count);
 	printf("  counting costs %.1f %%\n", 100 * (median(counting, ROUNDS) - 1));
 	fflush(stdout);
@@ -248,7 +254,8 @@ static int bench_scene(const char *family, int size)
 #endif
 	ray_source_close(&source);
 	free(rays);
-	accel_free(&tree);
+	for (int i = 0; i < 3; i++)
+		accel_free(&trees[i]);
 	primitives_free(&p);
 	return 0;
 }

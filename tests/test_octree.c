@@ -265,11 +265,13 @@ static void crowds_count_what_single_rays_count(void **state)
 		octree_crowd,
 #ifdef __x86_64__
 		octree_crowd_avx2,
+		octree_crowd_avx512,
 #endif
 	};
 	for (size_t c = 0; c < sizeof crowds / sizeof *crowds; c++) {
 #ifdef __x86_64__
-		if (crowds[c] == octree_crowd_avx2 && !__builtin_cpu_supports("avx2"))
+		if ((crowds[c] == octree_crowd_avx2 && !__builtin_cpu_supports("avx2")) ||
+		    (crowds[c] == octree_crowd_avx512 && !(__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))))
 			continue;
 #endif
 		for (int v = 0; v < 4; v++) {

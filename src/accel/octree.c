@@ -62,6 +62,10 @@ WALK_TWICE(walk)
 static void shoot_many(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n)
 {
 #ifdef __x86_64__
+	if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
+		octree_crowd_avx512(a, r, count, h, n);
+		return;
+	}
 	if (__builtin_cpu_supports("avx2")) {
 		octree_crowd_avx2(a, r, count, h, n);
 		return;

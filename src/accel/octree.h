@@ -127,10 +127,14 @@ int octree_build(struct accel *a, const void *opt, struct err *e);
 int octree_cells(const struct accel *a, cell_fn *fn, void *ctx);
 int octree_check(const struct accel *a, struct err *e);
 
-/* The door's walk of many rays (octree_crowd.c): for any processor, and for one with AVX2. OCTREE_CROWD: the one compiled for. */
+/* The door's walk of many rays (octree_crowd.c): for any processor, and for those with AVX2 and AVX-512. OCTREE_CROWD: the one compiled
+ * for. */
 void octree_crowd(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n);
 void octree_crowd_avx2(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n);
-#ifdef __AVX2__
+void octree_crowd_avx512(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n);
+#if defined(__AVX512VL__) && defined(__AVX512DQ__)
+#define OCTREE_CROWD octree_crowd_avx512
+#elif defined(__AVX2__)
 #define OCTREE_CROWD octree_crowd_avx2
 #else
 #define OCTREE_CROWD octree_crowd

@@ -1,8 +1,9 @@
-/* Many rays on their way through an octree at once. This file is compiled twice: for any processor, and for those with AVX2. */
+/* Many rays on their way through an octree at once. This file is compiled for any processor, for those with AVX2, and for those with
+ * AVX-512. */
 #include "accel/octree_walk.h"
 
 /* Enough to cover a miss to memory by the others' work, few enough to stay in the nearest cache. */
-enum { OCTREE_WALKERS = 32 };
+enum { OCTREE_WALKERS = 24 };
 
 /* A walker among others. */
 struct member {
