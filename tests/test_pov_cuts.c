@@ -241,6 +241,43 @@ static void many_holes(void **state)
 	bench_close(&b);
 }
 
+/* Nothing is inside a shape that has no inside, its complement included, as POV-Ray takes it: of a combination its own surface stays,
+ * within the other parts, and theirs go. */
+static void no_inside(void **state)
+{
+	(void)state;
+	static const struct vec p[] = { { { { -1, 0, -1 } } }, { { { 1, 0, -1 } } }, { { { 1, 0, 1 } } } };
+	static const uint32_t corners[] = { 0, 1, 2 };
+	struct bench b = bench_open(64);
+	struct pov_solid *sheet = pov_solid_new(&b.mem, POV_MESH), *ball = new_sphere(&b, 0, 0, 0, 0.5), *box = new_box(&b, vec(0, -1, -1), vec(1, 1, 1));
+	sheet->shape.mesh = (struct pov_triangles){ p, corners, NULL, 3, 1, vec(0, 0, 0) };
+	seal(&b, sheet);
+	struct pov_solid *all[] = {
+		combine(&b, POV_INTERSECTION, pov_solid_copy(&b.mem, box), pov_solid_copy(&b.mem, sheet), NULL),
+		combine(&b, POV_DIFFERENCE, pov_solid_copy(&b.mem, box), pov_solid_copy(&b.mem, sheet), NULL),
+		combine(&b, POV_DIFFERENCE, pov_solid_copy(&b.mem, box),
+		        combine(&b, POV_UNION, pov_solid_copy(&b.mem, ball), pov_solid_copy(&b.mem, sheet), NULL), NULL),
+	};
+	/* The triangle's part in the box; the ball takes 3/8 of its disc. */
+	const double areas[] = { 1.5, 1.5, 1.5 - 3 * pi / 32 };
+	for (int i = 0; i < 3; i++) {
+		mesh(&b, all[i]);
+		assert_near(area(&b), areas[i], i == 2 ? 1e-3 : 1e-12);
+		for (size_t k = 0; k < b.scene.point_count; k++)
+			assert_near(b.scene.points[k].y, 0, 1e-12);
+		assert_false(pov_solid_inside(all[i], vec(0.9, 0.5, 0.5)));
+	}
+	/* In a union the other parts stay. */
+	struct pov_solid *u = combine(&b, POV_UNION, pov_solid_copy(&b.mem, box), sheet, NULL);
+	assert_true(pov_solid_inside(u, vec(0.9, 0.5, 0.5)));
+	mesh(&b, combine(&b, POV_INTERSECTION, new_box(&b, vec(-3, -3, -3), vec(3, 3, 3)), u, NULL));
+	assert_near(area(&b), 16 + 2, 1e-12);
+	b.options.merge_exact = true;
+	mesh(&b, combine(&b, POV_MERGE, pov_solid_copy(&b.mem, box), pov_solid_copy(&b.mem, sheet), NULL));
+	assert_near(area(&b), 16 + 0.5, 1e-12);
+	bench_close(&b);
+}
+
 /* What cannot be meshed is dropped: alone from a union and from what is taken away, with all of an intersection. */
 static void unknown_shapes(void **state)
 {
@@ -347,7 +384,7 @@ int main(void)
 		cmocka_unit_test(mesh_solids), cmocka_unit_test(exact_cuts), cmocka_unit_test(curved_cuts),
 		cmocka_unit_test(cuts_meet), cmocka_unit_test(clips), cmocka_unit_test(random_combinations),
 		cmocka_unit_test(de_morgan), cmocka_unit_test(merges), cmocka_unit_test(many_holes),
-		cmocka_unit_test(unknown_shapes), cmocka_unit_test(native_spheres), cmocka_unit_test(domes),
+		cmocka_unit_test(no_inside), cmocka_unit_test(unknown_shapes), cmocka_unit_test(native_spheres), cmocka_unit_test(domes),
 		cmocka_unit_test(planets), cmocka_unit_test(budgets),
 	};
 	return cmocka_run_group_tests_name("pov_cuts", tests, NULL, NULL);

@@ -27,8 +27,11 @@ static void operators(void **state)
 	assert_number("", "(2 <= 2) + (2 >= 3) + (1 != 2) + (1 = 1)", 3);
 	assert_number("", "(1 = 1 + 1e-11)", 1);
 	assert_number("", "(1 < 1 + 1e-11)", 1);
-	assert_number("", "1e-11 ? 5 : 6", 6);
-	assert_number("", "1e-9 ? 5 : 6", 5);
+	assert_number("", "(1 <= 1 - 1e-11) + (1 >= 1 + 1e-11) + (1 != 1 + 1e-11)", 2);
+	assert_number("", "(1 <= 1 - 1e-9) + (1 >= 1 + 1e-9) + (1 = 1 + 1e-9)", 0);
+	assert_number("", "(1 + 1e-11 > 1)", 1);
+	assert_number("", "0.9e-10 ? 5 : 6", 6);
+	assert_number("", "1.1e-10 ? 5 : 6", 5);
 	assert_number("", "!3 + !0", 1);
 	assert_number("", "10 / 4 * 2 - -1", 6);
 	assert_number("", "2 - 3 - 4", -5);
@@ -38,12 +41,16 @@ static void operators(void **state)
 	assert_vector("", "<1 -2 -3>", 1, -2, -3);
 	assert_vector("", "<1,2,3>*<4,5,6>", 4, 10, 18);
 	assert_vector("", "<1,2,3>/2", 0.5, 1, 1.5);
+	assert_vector("", "<4,6,8>/<2,3,4>", 2, 2, 2);
 	assert_vector("", "1 + <1,2,3>", 2, 3, 4);
 	assert_vector("", "<1,2> + <1,1,1>", 2, 3, 1);
 	assert_vector("", "x + 2*y - z", 1, 2, -1);
 	assert_vector("", "(1 < 2)*<1, (3 > 2), 2>", 1, 1, 2);
 	assert_number("", "<1,2,3>.y", 2);
 	assert_number("", "<1,2,3>.t + u.x + v.y + t.t", 3);
+	assert_vector("", "u", 1, 0, 0);
+	assert_vector("", "v", 0, 1, 0);
+	assert_number("", "vlength(t - <0,0,0,1>)", 0);
 	assert_number("", "<1,2,3>.blue", 3);
 	assert_number("", "(rgb<1,0.5,0.25>).gray", 0.297 + 0.2945 + 0.0285);
 	assert_number("", "pi*(yes + on - no)", 2 * 3.14159265358979323846);
@@ -60,6 +67,7 @@ static void colors(void **state)
 	assert_color("rgbft <1,2,3,4,5>", 1, 2, 3, 4, 5);
 	assert_color("rgbt 2", 2, 2, 2, 0, 2);
 	assert_color("rgb <1,2,3>*2", 2, 4, 6, 0, 0);
+	assert_color("rgb -<1,2,3>", -1, -2, -3, 0, 0);
 	assert_color("color red 1 green 0.5 filter 0.25", 1, 0.5, 0, 0.25, 0);
 	assert_color("colour rgb 0.5 transmit 0.75", 0.5, 0.5, 0.5, 0, 0.75);
 	assert_color("srgb <0, 1, 0.02>", 0, 1, 0.02 / 12.92, 0, 0);
@@ -76,14 +84,21 @@ static void functions_of_numbers(void **state)
 	assert_number("", "log(1000) + ln(exp(2)) + sqr(3) + sqrt(16)", 18);
 	assert_number("", "degrees(pi) + radians(180)", 180 + 3.14159265358979323846);
 	assert_number("", "atan2(1, 0) * 2 + sin(0) + cos(0)", 3.14159265358979323846 + 1);
-	assert_number("", "min(3,1,2) + max(3,1,2)*10", 31);
+	assert_number("", "min(4,2,3,1.5) + max(4,2,9,1.5)*10", 91.5);
+	assert_number("", "asin(1) + acos(1) + atan(1)", 3.14159265358979323846 * 0.75);
+	assert_number("", "tan(1)*cos(1) - sin(1)", 0);
+	assert_number("", "cosh(1)", 1.5430806348152437785);
+	assert_number("", "sinh(1) + tanh(1)*cosh(1)", 2 * 1.1752011936438014569);
+	assert_number("", "asinh(sinh(2)) + acosh(cosh(2)) + atanh(tanh(0.5))", 4.5);
+	assert_number("", "abs(-2) + pow(2, 0.5)*sqrt(2)", 4);
 	assert_number("", "select(-1,10,20) + select(0,10,20) + select(1,10,20)", 50);
 	assert_number("", "select(-1,1,2,3) + select(0,1,2,3)*10 + select(1e-12,1,2,3)*100", 321);
-	assert_number("", "bitwise_and(6,3) + bitwise_or(6,3)*10 + bitwise_xor(6,3)*100", 572);
+	assert_number("", "bitwise_and(6.9,3) + bitwise_or(6,3.9)*10 + bitwise_xor(6,3)*100", 572);
 	const double first[5] = { 0.904773, 0.995138, 0.518667, 0, 0 };
 	assert_value("#declare S = seed(123);", "<rand(S),rand(S),rand(S)>", first, 1e-6);
 	assert_number("#declare A = seed(1); #declare B = seed(9);", "B - A", 1);
 	assert_number("#declare A = seed(4); #declare B = seed(4);", "rand(A) - rand(B)", 0);
+	assert_number("#declare A = seed(4); #declare B = seed(4);", "rand(A) - rand(1)", 0); /* an index is a number */
 }
 
 static void functions_of_vectors(void **state)
@@ -110,6 +125,7 @@ static void strings(void **state)
 	assert_string("", "str(3.14159, 8, 3)", "   3.142");
 	assert_string("", "str(3.14159, -8, 3)", "0003.142");
 	assert_string("", "str(2, 0, -1)", "2.000000");
+	assert_string("", "str(-2.5, -7, 2)", "-002.50");
 	assert_string("", "vstr(3, <1,2,3>, \"/\", 0, 1)", "1.0/2.0/3.0");
 	assert_string("", "substr(\"abcdef\", 2, 3)", "bcd");
 	assert_string("", "strupr(\"aBc\")", "ABC");
@@ -153,6 +169,10 @@ static void splines(void **state)
 	const char *quadratic = "#declare S = spline { quadratic_spline 0, <0,0,0>, 1, <1,1,1>, 2, <4,4,4> }";
 	assert_number(quadratic, "S(1.5).x", 2.25);
 	assert_number(quadratic, "S(0.5).x", 0.25);
+	/* Later spans use the point before them; measured with POV-Ray 3.7. */
+	const char *bent = "#declare S = spline { quadratic_spline 0, <0,0,0>, 1, <1,0,0>, 2, <4,0,0>, 3, <5,0,0> }";
+	assert_vector(bent, "<S(0.5).x, S(1.5).x, S(2.5).x>", 0.25, 2.25, 4.75);
+	assert_vector(bent, "<S(-1).x, S(5).x, 0>", 0, 5, 0);
 	/* First and last points are controls: the curve is clamped to the inner ones. */
 	const char *cubic = "#declare S = spline { cubic_spline -1, <0,0,0>, 0, <1,0,0>, 1, <3,0,0>, 2, <4,0,0> }";
 	assert_number(cubic, "S(-1).x", 1);

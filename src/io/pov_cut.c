@@ -236,7 +236,7 @@ struct turns {
 static void take_turn(struct turns *s, struct pov_term *part)
 {
 	struct pov_facets *from = &s->rest[s->at], *to = &s->rest[!s->at];
-	if (part == s->except || (s->meet && part->kind == TERM_LEAF && !pov_shape_has_inside(part->shape)))
+	if (part == s->except)
 		return;
 	pov_facets_clear(to);
 	if (s->except)
@@ -315,7 +315,9 @@ static void cut_facet(const struct pov_cutter *c, const struct pov_facet *f, str
 	}
 	if (!in && !out)
 		return;
-	if (t->kind == TERM_EMPTY || !box_meets(&own, &t->box) || (t->kind == TERM_LEAF && !pov_shape_has_inside(t->shape)))
+	if (t->kind == TERM_LEAF && !pov_shape_has_inside(t->shape))
+		put(t->full ? in : out, f->v, f->material);
+	else if (t->kind == TERM_EMPTY || !box_meets(&own, &t->box))
 		put(out, f->v, f->material);
 	else if (t->kind != TERM_LEAF)
 		cut_parts(c, turned, f, t, except, in, out);

@@ -25,7 +25,8 @@ struct pov_term {
 	struct box box, extent; /* of the set; of its surface */
 
 	/* Leaves. bound: where the surface may be at most (bounded_by). halves: planes and boxes, as half spaces. feature: width of what is
-	 * most curved in it. squeeze: the most 'back' stretches. */
+	 * most curved in it. squeeze: the most 'back' stretches. full: the shape has no inside and an odd number of complements is about it,
+	 * in which nothing is inside it, either: the set is all of space. */
 	const struct pov_solid *shape;
 	struct matrix place, back;
 	double feature, squeeze;
@@ -33,6 +34,7 @@ struct pov_term {
 	struct box bound;
 	const struct pov_half *halves;
 	int half_count;
+	bool full;
 
 	/* Combinations. children in order, also as an array with a tree over their boxes where there are many. */
 	struct pov_term *child, *next;

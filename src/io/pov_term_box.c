@@ -15,7 +15,7 @@ struct box pov_term_box(const struct pov_term *t)
 	return t->inverse ? box_infinite() : t->box;
 }
 
-/* Whether a part of an intersection bounds it: shapes without an inside do not. */
+/* Whether a part of an intersection bounds its surface: shapes without an inside leave their own. */
 static bool decides(const struct pov_term *t)
 {
 	return t->kind != TERM_LEAF || pov_shape_has_inside(t->shape);
