@@ -325,6 +325,52 @@ static void quadric_bounds(void **state)
 	bench_close(&b);
 }
 
+static struct pov_solid *new_quadric(struct bench *b, struct pov_quadric q)
+{
+	struct pov_solid *s = pov_solid_new(&b->mem, POV_QUADRIC);
+	s->shape.quadric = q;
+	return seal(b, s);
+}
+
+/* An endless cone within an endless cylinder and two planes, however they lie: between them is little, and that is looked at closely. */
+static void turned_bounds(void **state)
+{
+	(void)state;
+	struct matrix turns[] = { matrix_identity(), matrix_rotation(0, pi / 2), matrix_axis_rotation(vec_unit(vec(1, 2, 3)), 1) };
+	for (int clipped = 0; clipped < 2; clipped++)
+		for (int i = 0; i < 3; i++) {
+			struct bench b = bench_open(32);
+			struct pov_solid *cone = new_quadric(&b, (struct pov_quadric){ { 1, -1, 1, 0, 0, 0, 0, 0, 0, 0 } });
+			struct pov_solid *tube = new_quadric(&b, (struct pov_quadric){ { 1, 0, 1, 0, 0, 0, 0, 0, 0, -1 } }), *s = cone;
+			tube->next = combine(&b, POV_INTERSECTION, new_plane(&b, 0, 1, 0, 2), new_plane(&b, 0, -1, 0, 0), NULL);
+			if (clipped) {
+				cone->clip = tube;
+			} else {
+				cone->next = tube;
+				s = pov_solid_new(&b.mem, POV_INTERSECTION);
+				s->child = cone;
+			}
+			pov_solid_move(s, &turns[i]);
+			mesh(&b, s);
+			/* The cone up to y = 1; without a clip the cylinder from there to 2, and a lid. */
+			double want = pi * sqrt(2) + (clipped ? 0 : 2 * pi + pi);
+			assert_near(area(&b), want, 5e-3 * want);
+			bench_close(&b);
+		}
+}
+
+/* bounded_by tells where a surface without end is to be looked for. */
+static void bounded_surfaces(void **state)
+{
+	(void)state;
+	struct bench b = bench_open(32);
+	struct pov_solid *s = new_quadric(&b, (struct pov_quadric){ { 1, 0, 1, 0, 0, 0, 0, 0, 0, -900 } });
+	s->bound = new_box(&b, vec(-40, -40, -40), vec(40, 40, 40));
+	mesh(&b, s);
+	assert_near(area(&b), 2 * pi * 30 * 80, 1e-2 * 2 * pi * 30 * 80);
+	bench_close(&b);
+}
+
 static void assert_traced(struct bench *b, struct pov_solid *s, struct vec from, struct vec toward, struct vec want, struct vec normal)
 {
 	struct vec at, n;
@@ -393,7 +439,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(closed_surfaces), cmocka_unit_test(faces_outward), cmocka_unit_test(plane_distance),
 		cmocka_unit_test(plane_bound), cmocka_unit_test(blob_cylinder), cmocka_unit_test(blob_components),
-		cmocka_unit_test(isosurface_caps), cmocka_unit_test(reaches), cmocka_unit_test(quadric_bounds),
+		cmocka_unit_test(isosurface_caps), cmocka_unit_test(reaches), cmocka_unit_test(quadric_bounds), cmocka_unit_test(turned_bounds), cmocka_unit_test(bounded_surfaces),
 		cmocka_unit_test(traces), cmocka_unit_test(extents),
 	};
 	return cmocka_run_group_tests_name("pov_shapes", tests, NULL, NULL);

@@ -142,7 +142,7 @@ static struct pov_term *finish(struct resolver *r, struct pov_term *t)
 	} else if (t->kind == TERM_MEET) {
 		r->lost = pov_term_meet_box(r->mem, t) != 0 || r->lost;
 	} else {
-		pov_term_clip_box(t);
+		r->lost = pov_term_clip_box(r->mem, t) != 0 || r->lost;
 	}
 	return t;
 }
@@ -155,7 +155,7 @@ static struct pov_term *turn_over(struct resolver *r, struct pov_term *t)
 		t->child->next = NULL;
 		t->child = turn_over(r, t->child);
 		t->child->next = rest;
-		pov_term_clip_box(t);
+		r->lost = pov_term_clip_box(r->mem, t) != 0 || r->lost;
 		return t;
 	}
 	if (!t->clipped) {
@@ -284,6 +284,8 @@ static struct pov_term *resolve(struct resolver *r, const struct pov_solid *s, c
 		t = turn_over(r, t);
 	if (t && s->clip)
 		t = resolve_clips(r, t, s->clip, from);
+	if (t)
+		t->bound = c.bound;
 	return r->lost ? NULL : t;
 }
 
