@@ -47,6 +47,26 @@ static void sor_formula(void **state)
 	bench_close(&b);
 }
 
+/* A span in which the squared radius falls below zero is not there at all, as POV-Ray has it; the others are. */
+static void sor_gap(void **state)
+{
+	(void)state;
+	static const struct vec p[] = { { { { 0.2, -1, 0 } } }, { { { 1, 0, 0 } } }, { { { 1, 1, 0 } } }, { { { 0.5, 2, 0 } } }, { { { 6, 2.5, 0 } } },
+		                        { { { 6, 3, 0 } } } };
+	struct bench b = bench_open(64);
+	struct pov_solid *s = new_profile(&b, POV_SOR, (struct pov_profile){ POV_LINEAR, false, 0, 0, p, 6 });
+	struct vec at, normal;
+	mesh(&b, s);
+	for (size_t i = 0; i < b.scene.point_count; i++)
+		assert_true(b.scene.points[i].y <= 1 || b.scene.points[i].y >= 2);
+	assert_true(pov_solid_trace(&b.mem, s, vec(9, 0.503, 0), vec(-1, 0, 0), &at, &normal));
+	assert_near(at.x, 1.078, 2e-3);
+	assert_true(pov_solid_trace(&b.mem, s, vec(9, 2.203, 0), vec(-1, 0, 0), &at, &normal));
+	assert_near(at.x, 3.186, 0.02 * 3.186);
+	assert_false(pov_solid_trace(&b.mem, s, vec(9, 1.1, 0), vec(-1, 0, 0), &at, &normal));
+	bench_close(&b);
+}
+
 /* Loops of quadratic and cubic prisms close at their second point. */
 static void prism_loops(void **state)
 {
@@ -320,7 +340,7 @@ static void letters(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(splines), cmocka_unit_test(sor_formula), cmocka_unit_test(prism_loops),
+		cmocka_unit_test(splines), cmocka_unit_test(sor_formula), cmocka_unit_test(sor_gap), cmocka_unit_test(prism_loops),
 		cmocka_unit_test(sweep_controls), cmocka_unit_test(sweep_cone), cmocka_unit_test(bicubic),
 		cmocka_unit_test(polygons), cmocka_unit_test(discs), cmocka_unit_test(parametric), cmocka_unit_test(poly_terms),
 		cmocka_unit_test(quadric_terms), cmocka_unit_test(letters),
