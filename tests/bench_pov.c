@@ -91,6 +91,7 @@ static double time_read(const char *path, const char *behind, size_t *triangles)
 	struct err e = { 0 };
 	struct pov_summary summary;
 	struct pov_options o = pov_defaults();
+	o.width = o.height = 1;
 	double start = seconds();
 	int status = text_read_file(&t, path, (size_t)1 << 30, &e);
 	text_add(&t, behind, strlen(behind));

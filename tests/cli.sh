@@ -77,6 +77,12 @@ expect 2 'no reader for this kind of file; known endings are: nff aff' "$raycost
 expect 1 'nowhere' "$raycost" convert "$work/gears.nff" "$work/nowhere/x.ply"
 expect 0 '' "$raycost" view "$work/gears.nff" -o "$work/gears.png" --width 40 --height 30
 expect 0 'PNG' head -c 8 "$work/gears.png"
+# The same triangles, whatever the surroundings; faults.sh has a locale with decimal commas.
+for scene in machine terrain; do
+	expect 0 '' "$raycost" convert --resolution 3 jobs/scenes/$scene.pov "$work/$scene.ply"
+	expect 0 '' env LC_ALL=de_DE.UTF-8 TZ=Asia/Tokyo HOME=/nowhere "$raycost" convert --resolution 3 jobs/scenes/$scene.pov "$work/again.ply"
+	same "$work/$scene.ply" "$work/again.ply"
+done
 # Scenes may ask for the size of their image.
 echo '#error concat(str(image_width, 0, 0), " by ", str(image_height, 0, 0))' >"$work/asks.pov"
 expect 2 'the scene says: 40 by 30' "$raycost" render "$work/asks.pov" --width 40 --height 30

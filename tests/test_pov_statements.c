@@ -133,11 +133,40 @@ static void patches_in_combinations(void **state)
 	assert_missed("difference { triangle { <-5,0.1,0>, <5,0.1,0>, <0,0.1,5> } sphere { 0, 1 } }", "<0,5,0.5>, -y");
 }
 
+/* Two reads of a scene give the same bytes, whatever memory holds before. */
+static void same_triangles(void **state)
+{
+	(void)state;
+	const char *text = "#declare R = seed(7); #for (I, 1, 6) sphere { <rand(R), rand(R), rand(R)>*5, 0.4 scale <1, 1.5, 1> pigment { rgb rand(R) } } #end\n"
+	                   "difference { box { -1, 1 } cylinder { -2*y, 2*y, 0.5 } torus { 1, 0.3 rotate 30*x } }\n"
+	                   "blob { threshold 0.4 sphere { 0, 1, 1 } cylinder { x, 2*x, 0.5, 1 } translate 3*y }\n"
+	                   "isosurface { function { x*x + y*y*y - z } contained_by { box { -1, 1 } } translate 6*x }\n"
+	                   "quadric { <1, 0, 1>, 0, 0, -1 } plane { y, -2 } superellipsoid { <0.3, 2> translate -5*x }\n"
+	                   "sor { 5, <0.2, -1>, <1, 0>, <0.5, 1>, <1, 2>, <1, 3> translate 7*z } camera { location -9*z look_at 0 }";
+	struct scene s[2];
+	for (int i = 0; i < 2; i++) {
+		s[i] = read_with(text, NULL);
+		void *dirty = malloc(1 << 20);
+		memset(dirty, 0x5a, 1 << 20);
+		free(dirty);
+	}
+	assert_true(s[0].object_count > 10000);
+	assert_int_equal(s[0].object_count, s[1].object_count);
+	assert_int_equal(s[0].point_count, s[1].point_count);
+	assert_memory_equal(s[0].points, s[1].points, s[0].point_count * sizeof *s[0].points);
+	for (size_t i = 0; i < s[0].object_count; i++)
+		assert_true(s[0].objects[i].kind == s[1].objects[i].kind && s[0].objects[i].first == s[1].objects[i].first &&
+		            s[0].objects[i].count == s[1].objects[i].count && s[0].objects[i].material == s[1].objects[i].material);
+	scene_free(&s[0]);
+	scene_free(&s[1]);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(no_hit), cmocka_unit_test(separators), cmocka_unit_test(patch_types), cmocka_unit_test(height_fields),
 		cmocka_unit_test(clips_move), cmocka_unit_test(lamps), cmocka_unit_test(bent_polygons), cmocka_unit_test(patches_in_combinations),
+		cmocka_unit_test(same_triangles),
 	};
 	return cmocka_run_group_tests_name("pov_statements", tests, NULL, NULL);
 }
