@@ -87,9 +87,13 @@ hierarchies: all ## the experiments of "A cost model for ray tracing hierarchies
 smits: all ## the experiments of "Efficiency issues for ray tracing", with a report
 	@$(BUILD)/raycost run jobs/smits1999.yaml
 
-bench: $(BUILD)/tests/bench $(BUILD)/tests/bench_bvh ## time building and shooting, beside Embree where libembree-dev is installed
+bench: $(BUILD)/tests/bench $(BUILD)/tests/bench_bvh $(BUILD)/tests/bench_pov ## time building and shooting beside Embree, reading beside POV-Ray, where these are installed
 	@./$(BUILD)/tests/bench
 	@./$(BUILD)/tests/bench_bvh
+	@./$(BUILD)/tests/bench_pov $(wildcard jobs/scenes/*.pov $(EXAMPLES:%=/usr/share/doc/povray/examples/%.pov))
+
+# Examples of POV-Ray that bench reads: one of every kind.
+EXAMPLES := advanced/abyss advanced/chess2 advanced/isocacti
 
 check-pov: $(BUILD)/tests/check_pov ## hold POV-Ray's example scenes against POV-Ray (needs povray, povray-examples, povray-includes)
 	@sh tests/check_pov.sh ./$(BUILD)/tests/check_pov $(SCENES) $(LEAST)
@@ -131,6 +135,9 @@ $(BUILD)/shim.so: tests/shim.c
 	$(CC) -D_GNU_SOURCE -std=c11 -Wall -Wextra -Werror -O2 -shared -fPIC $< -o $@ -ldl
 
 EMBREE := $(if $(wildcard /usr/include/embree3/rtcore.h),yes)
+$(BUILD)/tests/bench_pov: %: %.o $(OBJ)
+	$(CC) $(CF) $^ -o $@ $(LIBS)
+$(BUILD)/tests/bench_pov.o: CFLAGS += -D_DEFAULT_SOURCE
 $(BUILD)/tests/bench $(BUILD)/tests/bench_bvh: %: %.o $(OBJ)
 	$(CC) $(CF) $^ -o $@ $(LIBS) $(if $(EMBREE),-lembree3)
 $(BUILD)/tests/bench.o $(BUILD)/tests/bench_bvh.o: CFLAGS += $(if $(EMBREE),-DHAVE_EMBREE)
@@ -165,7 +172,7 @@ $(BUILD)/src/main.o: $(BUILD)/version
 $(BUILD)/version: .FORCE
 	@mkdir -p $(@D); echo '$(VERSION)' | cmp -s - $@ || echo '$(VERSION)' > $@
 
--include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d $(BUILD)/tests/bench_bvh.d
+-include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d $(BUILD)/tests/bench_bvh.d $(BUILD)/tests/bench_pov.d
 -include $(wildcard $(BUILD)/tests/fuzz/*.d build/fuzz/*/*/*.d build/fuzz/*/*.d)
 
 .PHONY: $(TESTS:=.run) $(FUZZ:=.run) all deps tests test fuzz faults test-slurm coverage layers sweep paper hierarchies smits bench check-pov golden clean help .FORCE

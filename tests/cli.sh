@@ -77,6 +77,18 @@ expect 2 'no reader for this kind of file; known endings are: nff aff' "$raycost
 expect 1 'nowhere' "$raycost" convert "$work/gears.nff" "$work/nowhere/x.ply"
 expect 0 '' "$raycost" view "$work/gears.nff" -o "$work/gears.png" --width 40 --height 30
 expect 0 'PNG' head -c 8 "$work/gears.png"
+# The same triangles, whatever the surroundings; faults.sh has a locale with decimal commas.
+for scene in machine terrain; do
+	expect 0 '' "$raycost" convert --resolution 3 jobs/scenes/$scene.pov "$work/$scene.ply"
+	expect 0 '' env LC_ALL=de_DE.UTF-8 TZ=Asia/Tokyo HOME=/nowhere "$raycost" convert --resolution 3 jobs/scenes/$scene.pov "$work/again.ply"
+	same "$work/$scene.ply" "$work/again.ply"
+done
+# Scenes may ask for the size of their image.
+echo '#error concat(str(image_width, 0, 0), " by ", str(image_height, 0, 0))' >"$work/asks.pov"
+expect 2 'the scene says: 40 by 30' "$raycost" render "$work/asks.pov" --width 40 --height 30
+expect 2 'the scene says: 512 by 512' "$raycost" render "$work/asks.pov"
+expect 2 'the scene says: 40 by 512' "$raycost" view "$work/asks.pov" -o "$work/asks.png" --width 40
+expect 2 'the scene says: 800 by 600' "$raycost" info "$work/asks.pov"
 expect 2 '-o IMAGE.png is needed' "$raycost" view "$work/gears.nff"
 printf 'f 1 1 1 1 0 1 0 1\ntt wood 0 0 0 0 0 1 0 0 1 0 0 1 0 0 1\ni part.aff\nd 1\n' >"$work/main.aff"
 mkdir "$work/parts"

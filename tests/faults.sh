@@ -212,6 +212,8 @@ surroundings() {
 	localedef -i de_DE -f UTF-8 "$work/de_DE.UTF-8" >/dev/null 2>&1 && locale=yes
 	if [ -n "$locale" ]; then
 		env LOCPATH="$work" LC_ALL=de_DE.UTF-8 "$raycost" run "$work/job.yaml" -o "$work/locale" >/dev/null && same "$work/locale" || fault 'a locale with decimal commas'
+		"$raycost" convert jobs/scenes/machine.pov "$work/here.ply" && env LOCPATH="$work" LC_ALL=de_DE.UTF-8 TZ=Asia/Tokyo "$raycost" convert jobs/scenes/machine.pov \
+			"$work/there.ply" && cmp -s "$work/here.ply" "$work/there.ply" && ok || fault 'a scene read in a locale with decimal commas'
 	else
 		skip 'no localedef: a locale with decimal commas'
 	fi

@@ -35,6 +35,12 @@ bool reading_parse(struct reading *r, const char *command, int count, char **wor
 	return true;
 }
 
+void reading_set_image(struct reading *r, int64_t width, int64_t height)
+{
+	r->options.width = (int)width;
+	r->options.height = (int)height;
+}
+
 int reading_resolution(const struct reading *r)
 {
 	return r->options.resolution ? (int)r->options.resolution : SPD_RESOLUTION;

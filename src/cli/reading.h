@@ -20,6 +20,9 @@ struct reading {
 /* Whether words[*i] is an option of reading. Takes its value too, moving *i on; *status is 0, or the fault's with *e filled. */
 bool reading_parse(struct reading *r, const char *command, int count, char **words, int *i, int *status, struct err *e);
 
+/* The image that will be made of the scene, for scenes that ask: in pixels. */
+void reading_set_image(struct reading *r, int64_t width, int64_t height);
+
 /* R of curves that become triangles: what was asked for, or 3. */
 int reading_resolution(const struct reading *r);
 

@@ -132,6 +132,7 @@ static int run(struct cli *cli, int count, char **words, struct err *e)
 	if (status != 0)
 		return status;
 	render_resolve(&a.render);
+	reading_set_image(&a.reading, a.render.width, a.render.height);
 	if (load_file(&scene, a.scene, &a.reading.options, &summary, e) == 0 &&
 	    primitives_make(&primitives, &scene, CURVES_KEEP, reading_resolution(&a.reading), a.scene, e) == 0)
 		render(&a, cli, &scene, &primitives, e);

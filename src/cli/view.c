@@ -87,6 +87,7 @@ static int run(struct cli *cli, int count, char **words, struct err *e)
 	int status = parse(&a, count, words, e);
 	if (status != 0)
 		return status;
+	reading_set_image(&a.reading, a.render.width, a.render.height);
 	if (load_file(&scene, a.scene, &a.reading.options, &summary, e) == 0 &&
 	    primitives_make(&primitives, &scene, CURVES_KEEP, reading_resolution(&a.reading), a.scene, e) == 0) {
 		primitives.normals = NULL;

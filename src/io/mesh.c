@@ -28,7 +28,6 @@ static const uint64_t triangles_most = 20000000, materials_most = 1000000;
 
 /* The importing process as its parent sees it. */
 struct importer {
-	pid_t pid;
 	int fd;
 	const char *name;
 	const struct mesh_limits *limits;
@@ -166,6 +165,12 @@ static int receive_scene(struct importer *i, struct scene *s)
 	return scene_complete(s, i->name, i->err);
 }
 
+int mesh_receive(int fd, struct scene *s, const char *name, const struct mesh_limits *limits, struct err *e)
+{
+	struct importer i = { .fd = fd, .name = name, .limits = limits, .deadline = clock_seconds() + limits->seconds, .err = e };
+	return receive_scene(&i, s);
+}
+
 /* How the process ended, for what has no message yet. */
 static int explain(const struct importer *i, int ended)
 {
@@ -189,7 +194,7 @@ static int name_for_importer(const char *name, const char *text, size_t n, char 
 int mesh_read_within(struct scene *s, const char *name, const char *text, size_t n, const struct read_options *o,
                      const struct mesh_limits *limits, struct err *e)
 {
-	struct importer i = { .name = name, .limits = limits, .deadline = clock_seconds() + limits->seconds, .err = e };
+	struct importer i = { .name = name, .limits = limits, .err = e };
 	char path[4096];
 	int ends[2], ended = 0;
 	if (!mesh_available())
@@ -198,22 +203,21 @@ int mesh_read_within(struct scene *s, const char *name, const char *text, size_t
 		return refuse(&i, "path too long");
 	if (pipe(ends) != 0)
 		return err_at(e, STATUS_ENVIRONMENT, name, 0, "%s", strerror(errno));
-	i.pid = fork();
-	if (i.pid == 0) {
+	pid_t pid = fork();
+	if (pid == 0) {
 		close(ends[0]);
 		import(ends[1], path, text, n, o->include, limits);
 	}
 	close(ends[1]);
-	if (i.pid < 0) {
+	if (pid < 0) {
 		close(ends[0]);
 		return err_at(e, STATUS_ENVIRONMENT, name, 0, "%s", strerror(errno));
 	}
-	i.fd = ends[0];
-	int status = receive_scene(&i, s);
+	int status = mesh_receive(ends[0], s, name, limits, e);
 	if (status == 0 || e->code)
-		kill(i.pid, SIGKILL);
+		kill(pid, SIGKILL);
 	close(ends[0]);
-	while (waitpid(i.pid, &ended, 0) < 0 && errno == EINTR)
+	while (waitpid(pid, &ended, 0) < 0 && errno == EINTR)
 		;
 	return status != 0 && !e->code ? explain(&i, ended) : status;
 }

@@ -1,6 +1,8 @@
-/* The importing process's side of io/mesh.h, and what it sends. */
+/* The importing process's side of io/mesh.h, what it sends, and who checks that. */
 #ifndef IO_MESH_IMPORT_H
 #define IO_MESH_IMPORT_H
+
+#include "io/mesh.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -25,5 +27,9 @@ struct mesh_triangle {
 /* Import n bytes of a file called 'name', whose ending names the format, and write the stream to fd. folders: as include_read's. Returns
  * an exit status for the process; 0 where the stream is whole. */
 int mesh_import(int fd, const char *name, const char *text, size_t n, const char *folders);
+
+/* The parent's side: read the stream from fd into an empty scene, believing nothing. 0, or -1 and *e; a stream that ends before it
+ * is whole is -1 without a message, for the process that wrote it knows more. name: for messages. */
+int mesh_receive(int fd, struct scene *s, const char *name, const struct mesh_limits *limits, struct err *e);
 
 #endif

@@ -1,6 +1,9 @@
 #include "io/pov_cut.h"
 
+#include "base/grow.h"
 #include "io/pov_march.h"
+
+#include <stdlib.h>
 
 enum {
 	CORNERS = 16,      /* of a triangle cut by at most six planes, and more */
@@ -233,16 +236,22 @@ struct turns {
 	bool meet;
 };
 
+/* Among siblings of what is excepted, the one of lower index keeps what both share. */
+static const struct pov_cutter *cutter_for(struct turns *s, const struct pov_term *part)
+{
+	if (s->except)
+		s->cutter.flush = part->index > s->except->index;
+	return &s->cutter;
+}
+
 static void take_turn(struct turns *s, struct pov_term *part)
 {
 	struct pov_facets *from = &s->rest[s->at], *to = &s->rest[!s->at];
-	if (part == s->except || (s->meet && part->kind == TERM_LEAF && !pov_shape_has_inside(part->shape)))
+	if (part == s->except)
 		return;
 	pov_facets_clear(to);
-	if (s->except)
-		s->cutter.flush = part->index > s->except->index;
 	for (size_t i = 0; i < from->count; i++)
-		cut_facet(&s->cutter, &from->all[i], part, NULL, s->meet ? to : s->in, s->meet ? s->out : to);
+		cut_facet(cutter_for(s, part), &from->all[i], part, NULL, s->meet ? to : s->in, s->meet ? s->out : to);
 	s->at = !s->at;
 }
 
@@ -265,21 +274,60 @@ static void end_turns(struct turns *s)
 	}
 }
 
-struct siblings {
-	struct turns *turns;
-	const struct pov_term *term;
-	struct box box;
+/* A facet that has still to meet parts of a union: those in the tree from this place on. */
+struct waiting {
+	struct pov_facet facet;
+	uint32_t node, item;
 };
 
-static bool meets_facet(void *context, const struct box *b)
+/* The next part it may meet, or NULL; the place is behind that part. */
+static struct pov_term *next_part(const struct pov_term *t, struct waiting *w)
 {
-	return box_meets(b, &((struct siblings *)context)->box);
+	struct box own = decision_box(&w->facet);
+	while (w->node < t->tree.node_count) {
+		const struct pov_tree_node *n = &t->tree.nodes[w->node];
+		if (!box_meets(&n->box, &own)) {
+			w->node = n->skip;
+			w->item = 0;
+			continue;
+		}
+		while (w->item < n->count) {
+			struct pov_term *part = t->children[t->tree.order[n->first + w->item++]];
+			if (part->inverse || box_meets(&part->box, &own))
+				return part;
+		}
+		w->node++;
+		w->item = 0;
+	}
+	return NULL;
 }
 
-static void turn_sibling(void *context, uint32_t i)
+/* Against a union of many. Each piece that is left of the facet goes on by itself, for it meets fewer of the parts. */
+static void cut_by_many(struct turns *s, const struct pov_term *t, const struct pov_facet *f)
 {
-	struct siblings *s = context;
-	take_turn(s->turns, s->term->children[i]);
+	struct pov_facets *rest = &s->rest[0];
+	struct waiting *all = malloc(sizeof *all);
+	size_t count = 0, room = 1;
+	struct err ignored = { 0 };
+	rest->lost = rest->lost || !all;
+	if (all)
+		all[count++] = (struct waiting){ .facet = *f };
+	while (count > 0 && !rest->lost) {
+		struct waiting w = all[--count];
+		struct pov_term *part = next_part(t, &w);
+		pov_facets_clear(rest);
+		if (!part)
+			put(s->out, w.facet.v, w.facet.material);
+		else if (part == s->except)
+			pov_facets_add(rest, w.facet.v, w.facet.material);
+		else
+			cut_facet(cutter_for(s, part), &w.facet, part, NULL, s->in, rest);
+		rest->lost = rest->lost || array_reserve((void **)&all, count, &room, rest->count, sizeof *all, "facets", &ignored) != 0;
+		for (size_t i = rest->count; i-- > 0 && !rest->lost;)
+			all[count++] = (struct waiting){ rest->all[i], w.node, w.item };
+	}
+	pov_facets_clear(rest);
+	free(all);
 }
 
 static void cut_parts(const struct pov_cutter *c, bool turned, const struct pov_facet *f, struct pov_term *t, const struct pov_term *except,
@@ -289,11 +337,10 @@ static void cut_parts(const struct pov_cutter *c, bool turned, const struct pov_
 	struct turns s = { .cutter = *c, .except = except, .rest = { { .most = most }, { .most = most } }, .in = in, .out = out,
 		           .meet = t->kind != TERM_UNION };
 	s.cutter.turned = turned;
-	pov_facets_add(&s.rest[0], f->v, f->material);
 	if (t->children) {
-		struct siblings all = { &s, t, decision_box(f) };
-		pov_tree_visit(&t->tree, meets_facet, turn_sibling, &all);
+		cut_by_many(&s, t, f);
 	} else {
+		pov_facets_add(&s.rest[0], f->v, f->material);
 		/* Exact cuts first: they leave less to the others. */
 		for (int pass = 0; pass < 2; pass++)
 			for (struct pov_term *part = t->child; part && s.rest[s.at].count; part = part->next)
@@ -315,7 +362,9 @@ static void cut_facet(const struct pov_cutter *c, const struct pov_facet *f, str
 	}
 	if (!in && !out)
 		return;
-	if (t->kind == TERM_EMPTY || !box_meets(&own, &t->box) || (t->kind == TERM_LEAF && !pov_shape_has_inside(t->shape)))
+	if (t->kind == TERM_LEAF && !pov_shape_has_inside(t->shape))
+		put(t->full ? in : out, f->v, f->material);
+	else if (t->kind == TERM_EMPTY || !box_meets(&own, &t->box))
 		put(out, f->v, f->material);
 	else if (t->kind != TERM_LEAF)
 		cut_parts(c, turned, f, t, except, in, out);

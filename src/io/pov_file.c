@@ -111,18 +111,20 @@ static bool try_folder(struct pov *p, const char *folder, const char *name, bool
 }
 
 /* Look in the scene's folder, the folder of the file at hand, and the directories: the name as given, then without its
- * folders; exactly spelled, then in any case. path[PATH_MOST]. */
+ * folders; exactly spelled, then in any case. Strictly, as POV-Ray: the name as given, and not beside the file at hand.
+ * path[PATH_MOST]. */
 static bool find(struct pov *p, const char *name, char *path, struct text *t, bool tokens)
 {
 	const char *slash = strrchr(name, '/'), *spellings[] = { name, slash ? slash + 1 : NULL };
 	size_t count = p->options->directory_count + 2;
+	bool strict = p->options->strict;
 	if (*name == '/' && try_folder(p, "", name, false, path, t, tokens))
 		return true;
-	for (int any_case = 0; any_case <= 1; any_case++)
-		for (int k = 0; k < 2; k++)
+	for (int any_case = 0; any_case <= !strict; any_case++)
+		for (int k = 0; k < 2 - strict; k++)
 			for (size_t i = 0; spellings[k] && *spellings[k] && i < count; i++) {
 				const char *folder = i == 0 ? p->folder : i == 1 ? p->source->file->folder : p->options->directories[i - 2];
-				if (i == 1 && strcmp(folder, p->folder) == 0)
+				if (i == 1 && (strict || strcmp(folder, p->folder) == 0))
 					continue;
 				if ((*spellings[k] != '/') && try_folder(p, folder, spellings[k], any_case, path, t, tokens))
 					return true;

@@ -39,6 +39,10 @@ int pov_format_read(struct scene *s, const char *name, const char *text, size_t 
 	options.directory_count = count;
 	options.strict = o->strict;
 	options.mesh.planes = o->planes == PLANES_CLIP;
+	if (o->width > 0 && o->height > 0) {
+		options.width = o->width;
+		options.height = o->height;
+	}
 	if (o->resolution > 0)
 		options.mesh.resolution = (int)(4 * o->resolution);
 	int status = pov_read(s, name, text, n, &options, &found, e);

@@ -62,8 +62,10 @@ static int sort_out(struct mesher *m, struct pov_term *t, void *context)
 {
 	struct domes *d = context;
 	if (!is_dome(m, t)) {
-		if (t->kind != TERM_EMPTY && !box_is_empty(&t->extent) && box_is_finite(&t->extent))
-			box_join(&d->rest, &t->extent);
+		/* Planes end at the region: they do not make it. */
+		struct box own = t->half_count ? t->extent : box_common(&t->extent, &t->bound);
+		if (t->kind != TERM_EMPTY && !box_is_empty(&own) && box_is_finite(&own))
+			box_join(&d->rest, &own);
 		return 0;
 	}
 	if (d->count == d->room) {

@@ -5,7 +5,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum { FIELD_PIECES = 16 }; /* of a curved segment, for fields */
+enum { FIELD_PIECES = 16 /* of a curved segment, for fields */, WALL_STEPS = 256 };
 
 /* What is sealed: the outlines of the field. A prism has one, a text one a letter; turned shapes have one with its mirror image. */
 struct sealed {
@@ -244,21 +244,49 @@ const struct pov_shape pov_shape_text = {
 
 /* About an axis. */
 
-/* The points of sor between its controls: the squared radius is a cubic in the height (Hermite); denser where spans end, for
- * there the radius may go to zero like a root. */
+/* The squared radius of sor over a span from q[0] to q[1], as a cubic of 0..1 (Hermite). */
+static void sor_cubic(const struct vec *q, double *c)
+{
+	double a = q[0].x * q[0].x, b = q[1].x * q[1].x, slope[2];
+	for (int k = 0; k < 2; k++)
+		slope[k] = 2 * q[k].x * (q[k + 1].x - q[k - 1].x) / (q[k + 1].y - q[k - 1].y) * (q[1].y - q[0].y);
+	c[0] = a;
+	c[1] = slope[0];
+	c[2] = 3 * (b - a) - 2 * slope[0] - slope[1];
+	c[3] = 2 * (a - b) + slope[0] + slope[1];
+}
+
+/* The points of sor between its controls, denser where spans end, for there the radius may go to zero like a root. */
 static void sor_curve(struct pov_outline *o, const struct pov_profile *p, int pieces)
 {
 	for (size_t i = 1; i + 2 < p->count; i++) {
 		const struct vec *q = p->points + i;
-		double span = q[1].y - q[0].y, slope[2];
-		for (int k = 0; k < 2; k++)
-			slope[k] = 2 * q[k].x * (q[k + 1].x - q[k - 1].x) / (q[k + 1].y - q[k - 1].y) * span;
+		double c[4];
+		sor_cubic(q, c);
 		for (int k = 0; k <= pieces; k++) {
-			double t = k == pieces ? 1 : (1 - cos(pi * k / pieces)) / 2, a = q[0].x * q[0].x, b = q[1].x * q[1].x;
-			double square = a + t * (slope[0] + t * (3 * (b - a) - 2 * slope[0] - slope[1] + t * (2 * (a - b) + slope[0] + slope[1])));
-			pov_outline_add(o, sqrt(fmax(0, square)), k == pieces ? q[1].y : q[0].y + t * span);
+			double t = k == pieces ? 1 : (1 - cos(pi * k / pieces)) / 2;
+			pov_outline_add(o, sqrt(fmax(0, c[0] + t * (c[1] + t * (c[2] + t * c[3])))), k == pieces ? q[1].y : q[0].y + t * (q[1].y - q[0].y));
 		}
 	}
+}
+
+/* Whether the profile is drawn at a height. POV-Ray draws no span of sor whose squared radius falls below zero within it. */
+static bool has_wall(const struct pov_solid *s, double y)
+{
+	const struct pov_profile *p = &s->shape.profile;
+	size_t i = 1;
+	if (s->kind != POV_SOR)
+		return true;
+	while (i + 3 < p->count && y > p->points[i + 1].y)
+		i++;
+	double c[4], least = -1e-12 * fmax(p->points[i].x * p->points[i].x, p->points[i + 1].x * p->points[i + 1].x);
+	sor_cubic(p->points + i, c);
+	for (int k = 1; k < WALL_STEPS; k++) {
+		double t = (double)k / WALL_STEPS;
+		if (c[0] + t * (c[1] + t * (c[2] + t * c[3])) < least)
+			return false;
+	}
+	return true;
 }
 
 /* The half profile, unclosed. */
@@ -345,6 +373,8 @@ static void mesh_turned(const struct pov_solid *s, const struct pov_drawing *d)
 		return;
 	}
 	for (size_t i = 0; i + 1 < half.count; i++) {
+		if (!has_wall(s, (half.at[i][1] + half.at[i + 1][1]) / 2))
+			continue;
 		bool left = pov_outline_inside_left(&whole, i, i + 1 < whole.first[1] ? i + 1 : 0);
 		const double *a = half.at[left ? i : i + 1], *b = half.at[left ? i + 1 : i];
 		for (int j = 0; j < d->n; j++)

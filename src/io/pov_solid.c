@@ -76,28 +76,27 @@ bool pov_shape_container(const struct pov_solid *s, struct pov_solid *container)
 static bool inside_leaf(const struct pov_solid *s, struct vec p)
 {
 	struct pov_solid container;
-	if (!pov_shape_has_inside(s) || !(pov_shape_of(s)->field(s, p) <= 0))
+	if (!(pov_shape_of(s)->field(s, p) <= 0))
 		return false;
 	return !pov_shape_container(s, &container) || inside_leaf(&container, p);
 }
 
 static bool inside(const struct pov_solid *s, struct vec p, bool turned);
 
-/* Turned inside out, by De Morgan's rules: all of the parts where it was any of them. A part without an inside decides nothing. */
+/* Turned inside out, by De Morgan's rules: all of the parts where it was any of them. */
 static bool inside_parts(const struct pov_solid *s, struct vec p, bool turned)
 {
 	bool all = (s->kind == POV_INTERSECTION || s->kind == POV_DIFFERENCE) != turned;
 	for (const struct pov_solid *c = s->child; c; c = c->next) {
 		bool taken = s->kind == POV_DIFFERENCE && c != s->child;
-		if (c->kind < POV_UNION && !pov_shape_has_inside(c))
-			continue;
 		if (inside(c, p, taken != turned) != all)
 			return !all;
 	}
 	return all;
 }
 
-/* Clips stay as they are where the solid they clip is turned inside out. */
+/* Clips stay as they are where the solid they clip is turned inside out. Nothing is inside a shape that has no inside, turned or not; one
+ * that is not known takes nothing away. */
 static bool inside(const struct pov_solid *s, struct vec p, bool turned)
 {
 	struct matrix back;
@@ -107,6 +106,8 @@ static bool inside(const struct pov_solid *s, struct vec p, bool turned)
 	pov_place_invert(&s->place, &back);
 	struct vec local = matrix_point(p, &back);
 	turned = turned != s->inverse;
+	if (s->kind < POV_UNION && !pov_shape_has_inside(s))
+		return s->kind == POV_UNKNOWN && turned;
 	return s->kind < POV_UNION ? inside_leaf(s, local) != turned : inside_parts(s, local, turned);
 }
 

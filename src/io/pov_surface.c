@@ -193,11 +193,9 @@ static void collect_meet(struct pov_surface *s, struct pov_term *t, const struct
 		if (turned)
 			turn_facets(&part);
 		for (int pass = 0; pass < 2; pass++)
-			for (struct pov_term *by = t->child; by; by = by->next) {
-				bool decides = by->kind != TERM_LEAF || pov_shape_has_inside(by->shape) || t->kind == TERM_CLIP;
-				if (by != c && decides && (by->half_count > 0) == (pass == 0))
+			for (struct pov_term *by = t->child; by; by = by->next)
+				if (by != c && (by->half_count > 0) == (pass == 0))
 					keep(s, &part, &here, by, NULL, by->index > c->index);
-			}
 		if (turned)
 			turn_facets(&part);
 		append(out, &part);

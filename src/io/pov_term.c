@@ -16,6 +16,7 @@ struct context {
 	struct matrix place;
 	uint32_t material;
 	struct box bound;
+	bool turned; /* an odd number of complements is about it */
 };
 
 double pov_term_field(const struct pov_term *t, struct vec p)
@@ -97,7 +98,11 @@ static struct pov_term *resolve_shape(struct resolver *r, const struct pov_solid
 	pov_place_stretch(&t->place, &least, &most);
 	t->extent = pov_shape_placed(s, &t->place);
 	struct box filled = shape->filled ? shape->filled(s) : box_empty(), own = shape->bounds(s);
-	t->box = !pov_shape_has_inside(s) ? box_empty() : shape->filled ? pov_place_box(&filled, &t->place) : t->extent;
+	t->full = c->turned && !pov_shape_has_inside(s);
+	t->box = t->full                    ? box_infinite()
+	         : !pov_shape_has_inside(s) ? box_empty()
+	         : shape->filled            ? pov_place_box(&filled, &t->place)
+	                                    : t->extent;
 	t->feature = (shape->feature ? shape->feature(s) : box_longest(&own)) * least;
 	if (s->kind == POV_BOX || s->kind == POV_PLANE || s->kind == POV_DISC)
 		find_halves(r, t);
@@ -137,7 +142,7 @@ static struct pov_term *finish(struct resolver *r, struct pov_term *t)
 	} else if (t->kind == TERM_MEET) {
 		r->lost = pov_term_meet_box(r->mem, t) != 0 || r->lost;
 	} else {
-		pov_term_clip_box(t);
+		r->lost = pov_term_clip_box(r->mem, t) != 0 || r->lost;
 	}
 	return t;
 }
@@ -150,7 +155,7 @@ static struct pov_term *turn_over(struct resolver *r, struct pov_term *t)
 		t->child->next = NULL;
 		t->child = turn_over(r, t->child);
 		t->child->next = rest;
-		pov_term_clip_box(t);
+		r->lost = pov_term_clip_box(r->mem, t) != 0 || r->lost;
 		return t;
 	}
 	if (!t->clipped) {
@@ -190,11 +195,13 @@ static struct pov_term *resolve_difference(struct resolver *r, const struct pov_
 {
 	struct pov_term *t = new_term(r, TERM_MEET), *first = s->child ? resolve(r, s->child, c) : new_term(r, TERM_EMPTY);
 	struct pov_term *rest = new_term(r, TERM_UNION);
+	struct context taken = *c;
+	taken.turned = !c->turned;
 	if (!t || !first || !rest)
 		return NULL;
 	add_child(t, &t->child, first);
 	if (s->child)
-		resolve_row(r, rest, &rest->child, s->child->next, c);
+		resolve_row(r, rest, &rest->child, s->child->next, &taken);
 	if (r->lost)
 		return NULL;
 	rest = turn_over(r, finish(r, rest));
@@ -219,7 +226,7 @@ static struct pov_term *contain(struct resolver *r, struct pov_term *leaf)
 {
 	const struct pov_solid *s = leaf->shape;
 	struct pov_solid *around = NEW(r->mem, struct pov_solid, 1);
-	struct context c = { leaf->place, leaf->material, leaf->bound };
+	struct context c = { leaf->place, leaf->material, leaf->bound, false };
 	if (!around) {
 		r->lost = true;
 		return NULL;
@@ -239,10 +246,12 @@ static struct pov_term *contain(struct resolver *r, struct pov_term *leaf)
 static struct pov_term *resolve_clips(struct resolver *r, struct pov_term *of, const struct pov_solid *clips, const struct context *c)
 {
 	struct pov_term *t = new_term(r, TERM_CLIP);
+	struct context upright = *c;
+	upright.turned = false;
 	if (!t)
 		return NULL;
 	add_child(t, &t->child, of);
-	resolve_row(r, t, &of->next, clips, c);
+	resolve_row(r, t, &of->next, clips, &upright);
 	/* A clip that cannot be computed clips nothing. */
 	for (struct pov_term *p = of->next; p; p = p->next)
 		p->inverse = p->inverse || p->kind == TERM_EMPTY;
@@ -267,6 +276,7 @@ static struct pov_term *resolve(struct resolver *r, const struct pov_solid *s, c
 	c.place = matrix_multiply(&s->place, &from->place);
 	c.material = s->material != NO_MATERIAL ? s->material : from->material;
 	c.bound = box_common(&bound, &from->bound);
+	c.turned = from->turned != s->inverse;
 	struct pov_term *t = s->kind < POV_UNION ? resolve_shape(r, s, &c) : resolve_combination(r, s, &c);
 	if (t && (s->kind == POV_ISOSURFACE || s->kind == POV_PARAMETRIC))
 		t = contain(r, t);
@@ -274,6 +284,8 @@ static struct pov_term *resolve(struct resolver *r, const struct pov_solid *s, c
 		t = turn_over(r, t);
 	if (t && s->clip)
 		t = resolve_clips(r, t, s->clip, from);
+	if (t)
+		t->bound = c.bound;
 	return r->lost ? NULL : t;
 }
 
@@ -281,6 +293,6 @@ struct pov_term *pov_term_resolve(struct arena *a, const struct pov_solid *s, co
                                   struct pov_tally *tally)
 {
 	struct resolver r = { a, options, tally, false };
-	struct context c = { matrix_identity(), NO_MATERIAL, box_infinite() };
+	struct context c = { matrix_identity(), NO_MATERIAL, box_infinite(), false };
 	return resolve(&r, s, &c);
 }

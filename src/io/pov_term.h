@@ -23,16 +23,18 @@ struct pov_term {
 	bool clipped; /* a TERM_CLIP is somewhere in it */
 	bool cut;     /* set when something was cut by it other than exactly */
 	struct box box, extent; /* of the set; of its surface */
+	struct box bound;       /* where the surface may be at most (bounded_by) */
 
-	/* Leaves. bound: where the surface may be at most (bounded_by). halves: planes and boxes, as half spaces. feature: width of what is
-	 * most curved in it. squeeze: the most 'back' stretches. */
+	/* Leaves. halves: planes and boxes, as half spaces. feature: width of what is
+	 * most curved in it. squeeze: the most 'back' stretches. full: the shape has no inside and an odd number of complements is about it,
+	 * in which nothing is inside it, either: the set is all of space. */
 	const struct pov_solid *shape;
 	struct matrix place, back;
 	double feature, squeeze;
 	uint32_t material;
-	struct box bound;
 	const struct pov_half *halves;
 	int half_count;
+	bool full;
 
 	/* Combinations. children in order, also as an array with a tree over their boxes where there are many. */
 	struct pov_term *child, *next;
@@ -52,7 +54,7 @@ struct box pov_term_box(const struct pov_term *t);
 /* Set box and extent from the parts'; a union of many gets its tree. 0, or -1 when memory is out. */
 int pov_term_meet_box(struct arena *a, struct pov_term *t);
 int pov_term_union_box(struct arena *a, struct pov_term *t);
-void pov_term_clip_box(struct pov_term *t);
+int pov_term_clip_box(struct arena *a, struct pov_term *t);
 
 /* Of a leaf, at a point of the scene; inversion not included. */
 double pov_term_field(const struct pov_term *t, struct vec p);

@@ -4,9 +4,10 @@
 #include "io/pov_poly.h"
 #include "io/pov_term.h"
 
-enum { TREE_LEAST = 8, ROUNDS = 2, FACE_MOST = 256 };
+enum { TREE_LEAST = 8, ROUNDS = 2, LEVELS = 1, FACE_MOST = 256 };
 
-static const double far = 1e6; /* where unbounded polyhedra are cut off to find whether they are bounded */
+/* Where unbounded polyhedra are cut off to find whether they are bounded, and other boxes. */
+static const double far = 1e6, farther = 1e12;
 
 struct box pov_term_box(const struct pov_term *t)
 {
@@ -15,23 +16,26 @@ struct box pov_term_box(const struct pov_term *t)
 	return t->inverse ? box_infinite() : t->box;
 }
 
-/* Whether a part of an intersection bounds it: shapes without an inside do not. */
+/* Whether a part of an intersection bounds its surface: shapes without an inside leave their own. */
 static bool decides(const struct pov_term *t)
 {
 	return t->kind != TERM_LEAF || pov_shape_has_inside(t->shape);
 }
 
-/* The planes among the parts, as half spaces that face outward. */
-static size_t gather_planes(const struct pov_term *t, struct pov_half *halves)
+/* The planes in a row of parts, and 'levels' of intersections among them deep, as half spaces that face outward; returns how many there
+ * are. halves: NULL to count them. */
+static size_t gather_planes(const struct pov_term *row, int levels, struct pov_half *halves)
 {
 	size_t n = 0;
-	for (const struct pov_term *c = t->child; c; c = c->next)
-		if (c->kind == TERM_LEAF && c->half_count == 1) {
-			halves[n] = *c->halves;
-			if (c->inverse)
-				halves[n] = (struct pov_half){ vec_scale(halves[n].normal, -1), -halves[n].offset };
-			n++;
-		}
+	for (const struct pov_term *c = row; c; c = c->next) {
+		if (c->kind == TERM_MEET && !c->inverse && levels > 0)
+			n += gather_planes(c->child, levels - 1, halves ? halves + n : NULL);
+		if (c->kind != TERM_LEAF || c->half_count != 1)
+			continue;
+		if (halves)
+			halves[n] = c->inverse ? (struct pov_half){ vec_scale(c->halves->normal, -1), -c->halves->offset } : *c->halves;
+		n++;
+	}
 	return n;
 }
 
@@ -68,6 +72,16 @@ static struct face plane_square(const struct pov_half *h)
 		                      vec_add(vec_sub(foot, u), v) } };
 }
 
+/* A side at 'far' or nearly so counts as none. */
+static struct box without_far_sides(struct box b, double least)
+{
+	for (int a = 0; a < 3; a++) {
+		b.lo.a[a] = b.lo.a[a] <= -least ? -INFINITY : b.lo.a[a];
+		b.hi.a[a] = b.hi.a[a] >= least ? INFINITY : b.hi.a[a];
+	}
+	return b;
+}
+
 /* The polyhedron of the half spaces within a box: its box, from its faces. What reaches 'far' counts as unbounded. */
 static struct box polyhedron_box(const struct pov_half *halves, size_t n, const struct box *within)
 {
@@ -94,45 +108,60 @@ static struct box polyhedron_box(const struct pov_half *halves, size_t n, const 
 		for (int k = 0; k < p.count; k++)
 			box_extend(&found, p.corner[k]);
 	}
-	for (int a = 0; a < 3; a++) {
-		double edge = far * (1 - 1e-9);
-		found.lo.a[a] = found.lo.a[a] <= -edge ? within->lo.a[a] : found.lo.a[a];
-		found.hi.a[a] = found.hi.a[a] >= edge ? within->hi.a[a] : found.hi.a[a];
-	}
-	return found;
+	found = without_far_sides(found, far * (1 - 1e-9));
+	return box_common(&found, within);
 }
 
-/* By intervals in the quadric's own space. */
-static struct box tighten_by(const struct pov_term *q, const struct box *b)
+/* By the planes and by intervals in the quadric's own space, where what is turned lies straight. Boxes are finite on the way: the zeros of
+ * a turn by 90 degrees are 1e-17, and would let infinity through. own: room for the planes there. */
+static struct box tighten_by(const struct pov_term *q, const struct pov_half *halves, size_t n, struct pov_half *own, const struct box *b)
 {
-	struct box own = pov_place_box(b, &q->back);
-	own = pov_quadric_tighten(q->shape, q->inverse, &own);
-	own = pov_place_box(&own, &q->place);
-	return box_common(&own, b);
+	struct box all = { vec(-farther, -farther, -farther), vec(farther, farther, farther) }, within = box_common(b, &all);
+	for (size_t i = 0; i < n; i++) {
+		struct vec foot = matrix_point(vec_scale(halves[i].normal, halves[i].offset / vec_dot(halves[i].normal, halves[i].normal)), &q->back);
+		own[i].normal = vec_unit(matrix_normal(halves[i].normal, &q->back));
+		own[i].offset = vec_dot(own[i].normal, foot);
+	}
+	within = pov_place_box(&within, &q->back);
+	if (n)
+		within = polyhedron_box(own, n, &within);
+	within = pov_quadric_tighten(q->shape, q->inverse, &within);
+	within = without_far_sides(pov_place_box(&within, &q->place), far);
+	return box_common(&within, b);
+}
+
+/* The box of what is in all parts of a row. */
+static int common_box(struct arena *a, const struct pov_term *row, struct box *b)
+{
+	size_t planes = gather_planes(row, LEVELS, NULL);
+	struct pov_half *halves = NEW(a, struct pov_half, 2 * planes + 1);
+	*b = box_infinite();
+	if (!halves)
+		return -1;
+	for (const struct pov_term *c = row; c; c = c->next) {
+		struct box part = pov_term_box(c);
+		if (decides(c))
+			*b = box_common(b, &part);
+	}
+	gather_planes(row, LEVELS, halves);
+	for (int round = 0; round < ROUNDS && !box_is_empty(b); round++) {
+		if (planes)
+			*b = polyhedron_box(halves, planes, b);
+		for (const struct pov_term *c = row; c; c = c->next)
+			if (c->kind == TERM_LEAF && c->shape->kind == POV_QUADRIC)
+				*b = tighten_by(c, halves, planes, halves + planes, b);
+	}
+	return 0;
 }
 
 int pov_term_meet_box(struct arena *a, struct pov_term *t)
 {
-	struct pov_half *halves = NEW(a, struct pov_half, t->child_count);
-	struct box b = box_infinite(), surface = box_empty();
-	if (!halves)
+	struct box surface = box_empty();
+	if (common_box(a, t->child, &t->box) != 0)
 		return -1;
-	for (const struct pov_term *c = t->child; c; c = c->next) {
-		struct box part = pov_term_box(c);
+	for (const struct pov_term *c = t->child; c; c = c->next)
 		box_join(&surface, &c->extent);
-		if (decides(c))
-			b = box_common(&b, &part);
-	}
-	size_t n = gather_planes(t, halves);
-	for (int round = 0; round < ROUNDS && !box_is_empty(&b); round++) {
-		if (n)
-			b = polyhedron_box(halves, n, &b);
-		for (const struct pov_term *c = t->child; c; c = c->next)
-			if (c->kind == TERM_LEAF && c->shape->kind == POV_QUADRIC)
-				b = tighten_by(c, &b);
-	}
-	t->box = b;
-	t->extent = box_common(&surface, &b);
+	t->extent = box_common(&surface, &t->box);
 	return 0;
 }
 
@@ -155,13 +184,12 @@ int pov_term_union_box(struct arena *a, struct pov_term *t)
 	return boxes && t->children ? pov_tree_build(&t->tree, a, boxes, n) : -1;
 }
 
-void pov_term_clip_box(struct pov_term *t)
+int pov_term_clip_box(struct arena *a, struct pov_term *t)
 {
-	t->box = pov_term_box(t->child);
-	t->extent = t->child->extent;
-	for (const struct pov_term *c = t->child->next; c; c = c->next) {
-		struct box part = pov_term_box(c);
-		t->box = box_common(&t->box, &part);
-		t->extent = box_common(&t->extent, &part);
-	}
+	struct box clips, own = pov_term_box(t->child);
+	if (common_box(a, t->child->next, &clips) != 0)
+		return -1;
+	t->box = box_common(&own, &clips);
+	t->extent = box_common(&t->child->extent, &clips);
+	return 0;
 }

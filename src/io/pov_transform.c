@@ -60,15 +60,12 @@ static struct vec read_vector(struct pov *p)
 	return read_plain(p, &v) ? v : pov_vector(p);
 }
 
+/* By 0 is by 1, as POV-Ray takes it. */
 static struct matrix read_scale(struct pov *p)
 {
 	struct vec v = read_vector(p);
 	for (int i = 0; i < 3; i++)
-		if (v.a[i] == 0) {
-			if (p->options->strict)
-				pov_refuse(p, "scale by 0");
-			v.a[i] = 1;
-		}
+		v.a[i] = v.a[i] == 0 ? 1 : v.a[i];
 	return matrix_scale(v.x, v.y, v.z);
 }
 

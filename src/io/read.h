@@ -15,6 +15,7 @@ struct read_options {
 	const char *include; /* folders where files named in files are looked for, after the file's own; ':' between; NULL: none */
 	int64_t resolution;  /* R of curves that become triangles, 4 R sides a turn; 0: the format's own */
 	int planes;          /* enum read_planes */
+	int width, height;   /* of the image, for scenes that ask; no option of its own, but the command's. 0: the format's own, POV-Ray 800 x 600 */
 };
 
 /* The table of these options; ends with a NULL name. READ_KEYS: the same rows for a struct that holds them as 'field'. */
