@@ -36,7 +36,8 @@ struct oval {
 static void add_table(struct scene *s, struct vec at, const struct oval *o)
 {
 	static const double top[][2] = { { 0, TABLE - 0.06 }, { 0.9, TABLE - 0.06 }, { 0.96, TABLE - 0.055 }, { 0.985, TABLE - 0.045 },
-		                         { 1, TABLE - 0.03 }, { 1, TABLE - 0.015 }, { 0.99, TABLE - 0.005 }, { 0.98, TABLE }, { 0.7, TABLE }, { 0.35, TABLE }, { 0, TABLE } };
+		                         { 1, TABLE - 0.03 }, { 1, TABLE - 0.015 }, { 0.99, TABLE - 0.005 }, { 0.98, TABLE },
+		                         { 0.7, TABLE }, { 0.35, TABLE }, { 0, TABLE } };
 	static const double foot[][2] = { { 0.36, 0 }, { 0.36, 0.04 }, { 0.2, 0.08 }, { 0.14, 0.2 }, { 0.14, 0.5 }, { 0.3, TABLE - 0.06 } };
 	size_t first = s->object_count;
 	scene_add_material(s, walnut);

@@ -83,7 +83,8 @@ static void add_column(struct scene *s, struct vec at)
 {
 	static const double core[][2] = {
 		{ 0.6, 0 }, { 0.6, 0.3 }, { 0.55, 0.36 }, { 0.5, 0.42 }, { 0.42, 0.5 }, { RADIUS, 0.56 }, { RADIUS, LOW - 0.6 },
-		{ RADIUS + 0.06, LOW - 0.5 }, { RADIUS + 0.06, LOW - 0.4 }, { 0.45, LOW - 0.25 }, { 0.6, LOW - 0.1 }, { 0.6, LOW }, { 0.3, LOW + 0.2 }, { 0.3, SPRING },
+		{ RADIUS + 0.06, LOW - 0.5 }, { RADIUS + 0.06, LOW - 0.4 }, { 0.45, LOW - 0.25 }, { 0.6, LOW - 0.1 },
+		{ 0.6, LOW }, { 0.3, LOW + 0.2 }, { 0.3, SPRING },
 	};
 	static const double shaft[][2] = { { 0.1, 0.5 }, { 0.1, 2 }, { 0.1, LOW }, { 0.1, 5.5 }, { 0.1, SPRING - 0.3 },
 		                           { 0.16, SPRING - 0.15 }, { 0.2, SPRING } };

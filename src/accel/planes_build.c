@@ -222,6 +222,7 @@ int planes_build(struct accel *a, const void *options, const struct plane_option
 	struct vec size;
 	a->root = root_box(&a->primitives->bounds, (enum root_kind)common->root);
 	a->slack = 1e-9 * box_diagonal(&a->root);
+	a->plane_tests = true;
 	a->travel = TRAVEL_RECURSIVE + (enum travel)common->travel;
 	a->mailbox = (enum mailbox_kind)common->mailbox;
 	size = vec_sub(a->root.hi, a->root.lo);
