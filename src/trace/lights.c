@@ -20,7 +20,7 @@ struct light *lights_place(struct arena *mem, const struct scene *s, const struc
 		if (vec_length(way) == 0)
 			way = vec(0, 0, bounds->hi.z - bounds->lo.z);
 		double side = find_side(bounds, way);
-		if (where == LIGHT_INSIDE ? side < 1 : side >= 1)
+		if ((where == LIGHT_INSIDE && side < 1) || (where == LIGHT_OUTSIDE && side >= 1))
 			lights[i].at = vec_add(middle, vec_scale(way, (where == LIGHT_INSIDE ? 0.9 : 1.5) * side));
 	}
 	return lights;

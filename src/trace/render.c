@@ -420,8 +420,7 @@ int render_scene(struct rendering *out, const struct scene *s, const struct acce
 	*out = (struct rendering){ 0 };
 	if (flight_parse(&flight, o->flight, e) != 0)
 		return -1;
-	if (o->light != LIGHT_SCENE)
-		lit.lights = lights_place(&out->mem, s, &a->primitives->bounds, (enum light_place)o->light);
+	lit.lights = lights_place(&out->mem, s, &a->primitives->bounds, (enum light_place)o->light);
 	struct block_sums *sums = NEW(&out->mem, struct block_sums, frames * blocks);
 	r.colors = NEW(&out->mem, struct color, r.samples);
 	out->pixels = NEW(&out->mem, unsigned char, 3 * (size_t)o->width * (size_t)o->height);
