@@ -87,6 +87,9 @@ hierarchies: all ## the experiments of "A cost model for ray tracing hierarchies
 smits: all ## the experiments of "Efficiency issues for ray tracing", with a report
 	@$(BUILD)/raycost run jobs/smits1999.yaml
 
+interiors: all ## the experiments of "A cost metric for scene-interior ray origins", with a report
+	@$(BUILD)/raycost run jobs/fabianowski2009.yaml
+
 bench: $(BUILD)/tests/bench $(BUILD)/tests/bench_bvh $(BUILD)/tests/bench_pov ## time building and shooting beside Embree, reading beside POV-Ray, where these are installed
 	@./$(BUILD)/tests/bench
 	@./$(BUILD)/tests/bench_bvh
@@ -175,6 +178,6 @@ $(BUILD)/version: .FORCE
 -include $(OBJ:.o=.d) $(TESTS:=.d) $(BUILD)/src/main.d $(BUILD)/tests/bench.d $(BUILD)/tests/bench_bvh.d $(BUILD)/tests/bench_pov.d
 -include $(wildcard $(BUILD)/tests/fuzz/*.d build/fuzz/*/*/*.d build/fuzz/*/*.d)
 
-.PHONY: $(TESTS:=.run) $(FUZZ:=.run) all deps tests test fuzz faults test-slurm coverage layers sweep paper hierarchies smits bench check-pov golden clean help .FORCE
+.PHONY: $(TESTS:=.run) $(FUZZ:=.run) all deps tests test fuzz faults test-slurm coverage layers sweep paper hierarchies smits interiors bench check-pov golden clean help .FORCE
 .SECONDARY:
 .DELETE_ON_ERROR:

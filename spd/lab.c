@@ -1,7 +1,7 @@
 /* A laboratory; stands in for the "lab" of Smits 1999, a science center of 4,045 polygons: 12 benches with drawers and instruments,
  * stools, columns, shelves, and a grid with lamps below the ceiling, in a room of 30 x 20 m. */
 #include "base/rng.h"
-#include "spd/common.h"
+#include "spd/parts.h"
 
 enum { BENCHES = 12, DRAWERS = 9, INSTRUMENTS = 20, STOOLS = 24, COLUMNS = 8, LAMPS = 40, SHELVES = 29, BOARDS = 5 };
 enum { STREAM_INSTRUMENT = 1 };
@@ -15,23 +15,10 @@ static const struct material plaster = { { 0.85, 0.85, 0.82 }, 0.9, 0, 1, 0, 1 }
 static const struct material wood = { { 0.55, 0.40, 0.25 }, 0.8, 0.1, 20, 0, 1 };
 static const struct material metal = { { 0.60, 0.62, 0.65 }, 0.5, 0.4, 60, 0, 1 };
 
-static void add_part(struct scene *s, struct vec at, struct vec corner, struct vec size)
-{
-	struct vec lo = vec_add(at, corner);
-	spd_add_box(s, lo, vec_add(lo, size));
-}
-
 static void add_room(struct scene *s)
 {
-	const struct vec o = vec(0, 0, 0), x = vec(LONG, 0, 0), y = vec(0, WIDE, 0), z = vec(0, 0, HIGH);
-	const struct vec xy = vec_add(x, y), xz = vec_add(x, z), yz = vec_add(y, z), xyz = vec_add(xy, z);
 	scene_add_material(s, plaster);
-	spd_add_quad(s, o, x, xy, y);
-	spd_add_quad(s, z, yz, xyz, xz);
-	spd_add_quad(s, o, y, yz, z);
-	spd_add_quad(s, x, xz, xyz, xy);
-	spd_add_quad(s, o, z, xz, x);
-	spd_add_quad(s, y, xy, xyz, yz);
+	spd_add_hall(s, vec(0, 0, 0), vec(LONG, WIDE, HIGH));
 	for (int i = 0; i < COLUMNS; i++) {
 		struct vec lo = vec(5 + 6.5 * (i / 2), i % 2 ? 13.8 : 5.8, 0), hi = vec_add(lo, vec(0.4, 0.4, HIGH));
 		spd_add_quad(s, lo, vec(hi.x, lo.y, 0), vec(hi.x, lo.y, HIGH), vec(lo.x, lo.y, HIGH));
@@ -51,26 +38,26 @@ static void add_ceiling(struct scene *s)
 	for (int i = 1; i < (int)WIDE; i++)
 		spd_add_box(s, vec(0.02, i - 0.02, GRID + 0.05), vec(LONG - 0.02, i + 0.02, GRID + 0.09));
 	for (int i = 0; i < LAMPS; i++)
-		add_part(s, vec(2 + 3.5 * (i % 8), 2 + 4 * (i / 8), GRID - 0.2), vec(0, 0, 0), vec(1.2, 0.3, 0.1));
+		spd_add_part(s, vec(2 + 3.5 * (i % 8), 2 + 4 * (i / 8), GRID - 0.2), vec(0, 0, 0), vec(1.2, 0.3, 0.1));
 }
 
 /* Top, body, drawers with handles, and on the bench two rows of instruments with a dial each. */
 static void add_bench(struct scene *s, struct vec at, uint64_t seed, int bench)
 {
 	scene_add_material(s, wood);
-	add_part(s, at, vec(0, 0, 0.86), vec(5, 1.4, 0.04));
-	add_part(s, at, vec(0.1, 0.1, 0.05), vec(4.8, 1.2, 0.8));
+	spd_add_part(s, at, vec(0, 0, 0.86), vec(5, 1.4, 0.04));
+	spd_add_part(s, at, vec(0.1, 0.1, 0.05), vec(4.8, 1.2, 0.8));
 	for (int i = 0; i < DRAWERS; i++) {
 		double x = at.x + 0.15 + 1.58 * (i % 3), z = 0.1 + 0.25 * (i / 3), y = at.y + 0.08;
 		spd_add_quad(s, vec(x, y, z), vec(x + 1.5, y, z), vec(x + 1.5, y, z + 0.22), vec(x, y, z + 0.22));
-		add_part(s, vec(x, y, z), vec(0.65, -0.05, 0.1), vec(0.2, 0.04, 0.03));
+		spd_add_part(s, vec(x, y, z), vec(0.65, -0.05, 0.1), vec(0.2, 0.04, 0.03));
 	}
 	scene_add_material(s, metal);
 	for (int i = 0; i < INSTRUMENTS; i++) {
 		uint64_t key = rng_key(seed, STREAM_INSTRUMENT, (uint64_t)(bench * INSTRUMENTS + i));
 		struct vec place = vec_add(at, vec(0.05 + 0.5 * (i % 10), i < 10 ? 0.1 : 0.8, 0.9));
 		struct vec size = vec(0.15 + 0.3 * rng_uniform(key, 0), 0.15 + 0.3 * rng_uniform(key, 1), 0.1 + 0.4 * rng_uniform(key, 2));
-		add_part(s, place, vec(0, 0, 0), size);
+		spd_add_part(s, place, vec(0, 0, 0), size);
 		double y = place.y - 0.005, z = place.z + 0.02, right = place.x + size.x - 0.02, top = place.z + size.z - 0.02;
 		spd_add_quad(s, vec(place.x + 0.02, y, z), vec(right, y, z), vec(right, y, top), vec(place.x + 0.02, y, top));
 	}
@@ -83,12 +70,12 @@ static void add_furniture(struct scene *s, uint64_t seed)
 	scene_add_material(s, wood);
 	for (int i = 0; i < STOOLS; i++) {
 		struct vec at = vec(3 + 7 * (i / 2 % 4) + 2.2 * (i % 2), 2 + 5.5 * (i / 8), 0);
-		add_part(s, at, vec(0, 0, 0.6), vec(0.4, 0.4, 0.05));
+		spd_add_part(s, at, vec(0, 0, 0.6), vec(0.4, 0.4, 0.05));
 		for (int leg = 0; leg < 4; leg++)
-			add_part(s, at, vec(leg & 1 ? 0.34 : 0.02, leg & 2 ? 0.34 : 0.02, 0), vec(0.04, 0.04, 0.6));
+			spd_add_part(s, at, vec(leg & 1 ? 0.34 : 0.02, leg & 2 ? 0.34 : 0.02, 0), vec(0.04, 0.04, 0.6));
 	}
 	for (int i = 0; i < SHELVES; i++)
-		add_part(s, vec(1 + 2.8 * (i % 10), WIDE - 0.5, 0.8 + 0.7 * (i / 10)), vec(0, 0, 0), vec(2.4, 0.4, 0.04));
+		spd_add_part(s, vec(1 + 2.8 * (i % 10), WIDE - 0.5, 0.8 + 0.7 * (i / 10)), vec(0, 0, 0), vec(2.4, 0.4, 0.04));
 }
 
 static void fill(struct scene *s, const struct spd_options *o)

@@ -7,12 +7,14 @@
 
 extern const struct spd_family spd_tetra, spd_balls, spd_gears, spd_teapot, spd_mount, spd_rings, spd_tree, spd_lattice,
 	spd_shells, spd_sombrero, spd_jacks, spd_nurbtst, spd_sample, spd_sphere, spd_soup_family, spd_city, spd_town,
-	spd_wall, spd_dna, spd_arches, spd_geo58, spd_theater, spd_lab;
+	spd_wall, spd_dna, spd_arches, spd_geo58, spd_theater, spd_lab,
+	spd_room, spd_atrium, spd_nave, spd_forest, spd_conference;
 
 const struct spd_family *const spd_families[] = {
 	&spd_tetra, &spd_balls, &spd_gears, &spd_teapot, &spd_mount, &spd_rings, &spd_tree, &spd_lattice, &spd_shells,
 	&spd_sombrero, &spd_jacks, &spd_nurbtst, &spd_sample, &spd_sphere, &spd_soup_family, &spd_city, &spd_town,
-	&spd_wall, &spd_dna, &spd_arches, &spd_geo58, &spd_theater, &spd_lab, NULL
+	&spd_wall, &spd_dna, &spd_arches, &spd_geo58, &spd_theater, &spd_lab,
+	&spd_room, &spd_atrium, &spd_nave, &spd_forest, &spd_conference, NULL
 };
 
 static const char *const variants[] = { "current", "pre2021", NULL };

@@ -15,7 +15,7 @@ struct spd_options {
 	int variant;        /* enum spd_variant: balls */
 	int64_t count;      /* soup: triangles */
 	double cube;        /* soup: side of the cube the triangles lie in */
-	int64_t seed;       /* soup, city, town, wall */
+	int64_t seed;       /* soup, city, town, wall, theater, lab, room, forest, conference */
 	int plan;           /* enum spd_plan: city */
 	int camera;         /* enum spd_camera: city, town, wall */
 	double exponent, alpha, beta, gamma; /* shells */

@@ -1,7 +1,7 @@
 /* A theatre; stands in for the "theater" of Smits 1999: 46,502 polygons, most of them small ones in the seats, and much open space. A
  * hall of 40 x 30 x 15 m holds 20 rising rows of 30 seats, 72 polygons each, a balcony, a stage, and lights on trusses above. */
 #include "base/rng.h"
-#include "spd/common.h"
+#include "spd/parts.h"
 
 enum { ROWS = 20, SEATS = 30, STRIPS = 40, TRUSSES = 16, BARS = 32, PROPS = 5, BALCONIES = 8, PANELS = 20 };
 enum { STREAM_PROP = 1 };
@@ -18,25 +18,18 @@ static const struct material velvet = { { 0.55, 0.08, 0.10 }, 0.9, 0, 1, 0, 1 };
 static const struct material wood = { { 0.45, 0.30, 0.18 }, 0.8, 0.1, 20, 0, 1 };
 static const struct material steel = { { 0.30, 0.30, 0.32 }, 0.6, 0.3, 60, 0, 1 };
 
-/* A box given by its corner and its sides, relative to a place. */
-static void add_part(struct scene *s, struct vec at, struct vec corner, struct vec size)
-{
-	struct vec lo = vec_add(at, corner);
-	spd_add_box(s, lo, vec_add(lo, size));
-}
-
 /* Twelve boxes: four legs, a bar between them, the seat, the back and its rest for the head, and two arms on posts. */
 static void add_seat(struct scene *s, struct vec at)
 {
 	for (int i = 0; i < 4; i++)
-		add_part(s, at, vec(i & 1 ? 0.42 : 0.06, i & 2 ? 0.44 : 0.1, 0), vec(0.04, 0.04, 0.4));
-	add_part(s, at, vec(0.06, 0.26, 0.1), vec(0.4, 0.04, 0.04));
-	add_part(s, at, vec(0.04, 0.08, 0.4), vec(0.44, 0.42, 0.08));
-	add_part(s, at, vec(0.46, 0.08, 0.48), vec(0.08, 0.42, 0.5));
-	add_part(s, at, vec(0.48, 0.16, 0.98), vec(0.05, 0.26, 0.15));
+		spd_add_part(s, at, vec(i & 1 ? 0.42 : 0.06, i & 2 ? 0.44 : 0.1, 0), vec(0.04, 0.04, 0.4));
+	spd_add_part(s, at, vec(0.06, 0.26, 0.1), vec(0.4, 0.04, 0.04));
+	spd_add_part(s, at, vec(0.04, 0.08, 0.4), vec(0.44, 0.42, 0.08));
+	spd_add_part(s, at, vec(0.46, 0.08, 0.48), vec(0.08, 0.42, 0.5));
+	spd_add_part(s, at, vec(0.48, 0.16, 0.98), vec(0.05, 0.26, 0.15));
 	for (int i = 0; i < 2; i++) {
-		add_part(s, at, vec(0.1, i ? 0.54 : 0, 0.48), vec(0.04, 0.04, 0.16));
-		add_part(s, at, vec(0.08, i ? 0.53 : 0, 0.64), vec(0.4, 0.06, 0.04));
+		spd_add_part(s, at, vec(0.1, i ? 0.54 : 0, 0.48), vec(0.04, 0.04, 0.16));
+		spd_add_part(s, at, vec(0.08, i ? 0.53 : 0, 0.64), vec(0.4, 0.06, 0.04));
 	}
 }
 
@@ -64,15 +57,8 @@ static void add_rows(struct scene *s)
 /* The hall seen from inside, the balcony at the back, the stage with its curtains. */
 static void add_hall(struct scene *s)
 {
-	const struct vec o = vec(0, 0, 0), x = vec(DEEP, 0, 0), y = vec(0, WIDE, 0), z = vec(0, 0, HIGH);
-	const struct vec xy = vec_add(x, y), xz = vec_add(x, z), yz = vec_add(y, z), xyz = vec_add(xy, z);
 	scene_add_material(s, plaster);
-	spd_add_quad(s, o, x, xy, y);
-	spd_add_quad(s, z, yz, xyz, xz);
-	spd_add_quad(s, o, y, yz, z);
-	spd_add_quad(s, x, xz, xyz, xy);
-	spd_add_quad(s, o, z, xz, x);
-	spd_add_quad(s, y, xy, xyz, yz);
+	spd_add_hall(s, vec(0, 0, 0), vec(DEEP, WIDE, HIGH));
 	for (int i = 0; i < BALCONIES; i++)
 		spd_add_box(s, vec(DEEP - 2.2 + 0.2 * i, 0.5, 8 + 0.15 * i), vec(DEEP - 2 + 0.2 * i, WIDE - 0.5, 8.9 + 0.15 * i));
 	scene_add_material(s, wood);
@@ -98,16 +84,16 @@ static void add_rig(struct scene *s, uint64_t seed)
 		for (int i = 0; i < BARS; i++) {
 			double x = 1 + 1.2 * truss, piece = (WIDE - 4) / 8, y = 2 + piece * (i % 8);
 			if (i < 16)
-				add_part(s, vec(x, y, i < 8 ? 12 : 12.6), vec(0, 0, 0), vec(0.06, piece, 0.06));
+				spd_add_part(s, vec(x, y, i < 8 ? 12 : 12.6), vec(0, 0, 0), vec(0.06, piece, 0.06));
 			else if (i < 24)
-				add_part(s, vec(x, y, 12.06), vec(0.01, 0.3, 0), vec(0.04, 0.04, 0.54));
+				spd_add_part(s, vec(x, y, 12.06), vec(0.01, 0.3, 0), vec(0.04, 0.04, 0.54));
 			else
-				add_part(s, vec(x, y, 11.6), vec(-0.1, 0.2, 0), vec(0.26, 0.24, 0.4));
+				spd_add_part(s, vec(x, y, 11.6), vec(-0.1, 0.2, 0), vec(0.26, 0.24, 0.4));
 		}
 	scene_add_material(s, wood);
 	for (int i = 0; i < PROPS; i++) {
 		uint64_t key = rng_key(seed, STREAM_PROP, (uint64_t)i);
-		add_part(s, vec(2 + 5 * rng_uniform(key, 0), 6 + 3.6 * i, 1), vec(0, 0, 0),
+		spd_add_part(s, vec(2 + 5 * rng_uniform(key, 0), 6 + 3.6 * i, 1), vec(0, 0, 0),
 		         vec(0.5 + rng_uniform(key, 1), 0.5 + rng_uniform(key, 2), 0.5 + 1.5 * rng_uniform(key, 3)));
 	}
 }

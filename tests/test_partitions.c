@@ -319,6 +319,39 @@ static void planes_lower_the_cost(void **state)
 	primitives_free(&p);
 }
 
+/* Parts of large trees are built side by side: the same tree for every number of threads, and every primitive is in a leaf. */
+static void trees_do_not_depend_on_threads(void **state)
+{
+	(void)state;
+	struct err e = { 0 };
+	struct primitives p = make_spd("gears", 2, false);
+	for (int split = SPLIT_BALANCE; split <= SPLIT_EXACT; split++) {
+		struct kd_options o;
+		struct accel one, many;
+		key_defaults(accel_find("kd")->keys, &o);
+		o.split = split;
+		o.common.max_depth = 14;
+		o.common.boxes = split == SPLIT_BALANCE || split == SPLIT_SAH ? 0.5 : 0;
+		assert_int_equal(accel_build_on(&one, accel_find("kd"), &o, &p, 1, &e), 0);
+		assert_int_equal(accel_build_on(&many, accel_find("kd"), &o, &p, 3, &e), 0);
+		const struct planes *a = one.impl, *b = many.impl;
+		assert_true(a->node_count == b->node_count && a->ref_count == b->ref_count && a->box_count == b->box_count);
+		assert_true(o.common.boxes == 0 || a->box_count > 0);
+		for (uint32_t i = 0; i < a->node_count; i++) {
+			const struct plane_node *n = &a->nodes[i], *m = &b->nodes[i];
+			assert_true(memcmp(&n->plane, &m->plane, sizeof n->plane) == 0 && n->child == m->child && n->first == m->first);
+			assert_true(n->count == m->count && n->kind == m->kind && n->depth == m->depth);
+		}
+		assert_memory_equal(a->refs, b->refs, a->ref_count * sizeof *a->refs);
+		assert_true(a->box_count == 0 || memcmp(a->boxes, b->boxes, a->box_count * sizeof *a->boxes) == 0);
+		if (one.ops->check(&many, &e) != 0)
+			fail_msg("%s", e.text);
+		accel_free(&one);
+		accel_free(&many);
+	}
+	primitives_free(&p);
+}
+
 int main(void)
 {
 	static struct family scenes[] = {
@@ -343,6 +376,7 @@ int main(void)
 		cmocka_unit_test(grids_have_the_area_of_their_planes),
 		cmocka_unit_test(boxes_are_for_the_recursion),
 		cmocka_unit_test(planes_lower_the_cost),
+		cmocka_unit_test(trees_do_not_depend_on_threads),
 		{ "agrees with list: tetra", agrees_with_list, NULL, NULL, &shot[0] },
 		{ "agrees with list: gears", agrees_with_list, NULL, NULL, &shot[1] },
 		{ "agrees with list: balls", agrees_with_list, NULL, NULL, &shot[2] },

@@ -259,6 +259,62 @@ static void soups_of_scenes_keep_their_surface(void **state)
 	}
 }
 
+/* Triangles grow with what the size counts: chairs, arches, bays, trees. */
+static void rooms_have_their_counts(void **state)
+{
+	(void)state;
+	static const struct { const char *family; int size; int64_t base, each, parts; } rooms[] = {
+		{ "room", 6, 398, 72, 6 },           { "room", 2, 398, 72, 2 },
+		{ "atrium", 9, -5336, 2920, 24 },    { "atrium", 4, -5336, 2920, 12 },
+		{ "nave", 8, -44, 10392, 8 },        { "nave", 2, -44, 10392, 2 },
+		{ "forest", 80, 137280, 432, 80 },   { "forest", 3, 137280, 432, 3 },
+		{ "conference", 20, 23952, 12562, 20 }, { "conference", 1, 23952, 12562, 1 },
+	};
+	for (size_t i = 0; i < sizeof rooms / sizeof *rooms; i++) {
+		int64_t n[4], t;
+		count_objects(rooms[i].family, rooms[i].size, false, n, &t);
+		assert_int_equal(t, rooms[i].base + rooms[i].each * rooms[i].parts);
+	}
+}
+
+static bool holds(const struct box *b, struct vec p)
+{
+	bool inside = true;
+	for (int i = 0; i < 3; i++)
+		inside &= p.a[i] > b->lo.a[i] && p.a[i] < b->hi.a[i];
+	return inside;
+}
+
+/* Rays start inside them, and some are mirrored; nothing is without area; curved parts face where their normals do. */
+static void rooms_are_seen_from_inside(void **state)
+{
+	(void)state;
+	static const char *const families[] = { "room", "atrium", "nave", "forest", "conference" };
+	for (int i = 0; i < 5; i++) {
+		struct err e = { 0 };
+		struct scene s = { 0 };
+		struct primitives p = { 0 };
+		struct spd_options o;
+		bool shines = false;
+		key_defaults(spd_keys, &o);
+		assert_int_equal(spd_generate(&s, spd_find(families[i]), &o, &e), 0);
+		assert_int_equal(primitives_make(&p, &s, CURVES_KEEP, 3, families[i], &e), 0);
+		assert_int_equal(p.skipped, 0);
+		assert_true(s.view.given && holds(&p.bounds, s.view.from));
+		assert_true(s.light_count == 1 && holds(&p.bounds, s.lights[0].at));
+		for (size_t m = 0; m < s.material_count; m++)
+			shines |= s.materials[m].ks > 0;
+		assert_true(shines);
+		for (size_t k = 0; k < s.object_count; k++) {
+			const struct vec *v = &s.points[s.objects[k].first], *n = v + s.objects[k].count;
+			for (uint32_t c = 0; s.objects[k].kind == OBJECT_PATCH && c < s.objects[k].count; c++)
+				assert_true(vec_dot(vec_cross(vec_sub(v[1], v[0]), vec_sub(v[2], v[0])), n[c]) > 0);
+		}
+		primitives_free(&p);
+		scene_free(&s);
+	}
+}
+
 static void sizes_out_of_range_are_refused(void **state)
 {
 	(void)state;
@@ -286,6 +342,8 @@ int main(void)
 		cmocka_unit_test(spheres_are_closed),
 		cmocka_unit_test(soups_are_unit_right_triangles),
 		cmocka_unit_test(soups_of_scenes_keep_their_surface),
+		cmocka_unit_test(rooms_have_their_counts),
+		cmocka_unit_test(rooms_are_seen_from_inside),
 		cmocka_unit_test(sizes_out_of_range_are_refused),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,6 +5,8 @@
  *   tests        ray-primitive tests: every primitive listed in a visited leaf, the ray's own start primitive too; there is no
  *                mailbox and no early out
  *   tests_made   of these the ones a mailbox does not spare; 0 where the structure has none
+ *   barycentric  of the tests made of triangles those whose plane is met before the nearest hit so far, where a test that begins with the
+ *                plane (Wald 2004) goes on; only where 'plane_tests' says so, and 0 for rays that nothing stops
  *   inner_step   inner nodes visited while stepping from one leaf to the next
  *   inner_start  inner nodes visited on the way to the first leaf, root included
  *   boxes        ray-box tests: inner nodes of both that hold a bounding box, or what a bounding volume hierarchy tests
@@ -33,7 +35,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define TALLY_COUNTS(X) X(leaves) X(tests) X(tests_made) X(inner_step) X(inner_start) X(boxes) X(hits)
+#define TALLY_COUNTS(X) X(leaves) X(tests) X(tests_made) X(barycentric) X(inner_step) X(inner_start) X(boxes) X(hits)
 
 struct tally {
 #define COUNT_OF(field) uint64_t field;
@@ -107,6 +109,7 @@ struct accel {
 	struct box root;                     /* the region that is partitioned: holds every primitive */
 	double slack;                        /* 1e-9 of the root's diagonal */
 	bool volumes;                        /* a bounding volume hierarchy */
+	bool plane_tests;                    /* 'barycentric' is counted */
 	int threads;                         /* that build may use; the structure does not depend on it */
 	void *impl;                          /* the structure's own nodes, inside mem */
 	struct arena mem;                    /* owned */

@@ -156,6 +156,7 @@ int grid_build(struct accel *a, const void *opt, struct err *e)
 		return err_memory(e, "grid");
 	a->root = root_box(&a->primitives->bounds, (enum root_kind)o->root);
 	a->slack = 1e-9 * box_diagonal(&a->root);
+	a->plane_tests = true;
 	a->mailbox = (enum mailbox_kind)o->mailbox;
 	a->impl = g;
 	choose_resolution(g, a, o);

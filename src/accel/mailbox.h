@@ -75,8 +75,8 @@ static inline __attribute__((always_inline)) void visit_leaf(const struct accel 
 	COUNT(leaves, 1);
 	COUNT(tests, n);
 	if (m->kind == MAILBOX_NONE) {
-		if (!r->through)
-			test_all(a->primitives->all, ids, n, r, h);
+		for (uint32_t i = 0; i < n && !r->through; i++)
+			test_one(a->primitives->all, ids[i], r, h, tally, count);
 		return;
 	}
 	uint32_t at = 0;
@@ -85,7 +85,7 @@ static inline __attribute__((always_inline)) void visit_leaf(const struct accel 
 			continue;
 		COUNT(tests_made, 1);
 		if (!r->through)
-			primitive_hit(&a->primitives->all[ids[i]], ids[i], r, h);
+			test_one(a->primitives->all, ids[i], r, h, tally, count);
 	}
 	m->last = ids;
 	m->last_count = n;

@@ -74,22 +74,25 @@ struct plane_builder;
  * stays a leaf. */
 typedef bool plane_rule(struct plane_builder *b, const struct plane_cell *c, int *axis, double *plane);
 
-/* A tree being built: arrays that grow, from malloc. */
+struct plane_parts;
+
+/* A tree being built, or a part of one: arrays that grow, from malloc. */
 struct plane_builder {
 	const struct accel *accel;
 	const void *options;       /* of the structure, for its rule */
 	plane_rule *rule;
 	double slack, margin;      /* margin: 2^-24 of the root's longest side; cells are never thinner, boxes stand off by it */
-	struct box *bounds;        /* of every primitive */
-	double *low[3], *high[3];  /* [primitives] room for a rule to work in, an array an axis */
+	struct box *bounds;        /* of every primitive; parts share it */
+	double *low[3], *high[3];  /* [primitives listed at the top] room for a rule to work in, an array an axis */
 	double *spare;             /* and one more */
 	uint32_t *ids;             /* lists of the cells on the way down */
 	size_t id_count, id_room, node_room, box_room, ref_room;
 	struct planes tree;
+	struct plane_parts *parts; /* where small cells wait for their turn; NULL: they are built at once */
 };
 
 /* Build the tree of a->primitives into a->impl. options: of the structure, for its rule; common: those of them that all trees have.
- * 0, or -1 and *e: memory, more than 2^32 nodes or references. */
+ * Parts of it are built on up to a->threads threads; the tree does not depend on how many. 0, or -1 and *e: memory, more than 2^32 nodes or references. */
 int planes_build(struct accel *a, const void *options, const struct plane_options *common, plane_rule *rule, struct err *e);
 
 /* The rest of what the door asks for. */

@@ -1,6 +1,11 @@
-/* Building a tree of planes, depth first: lists wait on a stack, nodes and leaves' lists go straight to where they stay. */
+/* Building a tree of planes, depth first: lists wait on a stack, nodes and leaves' lists go straight to where they stay.
+ *
+ * Of a large scene only the top is built that way: a cell that lists a small share of the primitives is put aside with its list. These
+ * parts are built on several threads, each as a tree of its own, and then appended in the order in which they were put aside. Which
+ * cells they are does not depend on the threads, nor then does the tree. */
 #include "accel/planes.h"
 #include "base/grow.h"
+#include "base/par.h"
 #include "geom/triangle.h"
 
 #include <stdlib.h>
@@ -32,6 +37,41 @@ struct task {
 	uint32_t count, node;
 	int level;
 };
+
+/* A part put aside: where its root is to go, and its list. */
+struct part {
+	struct task task;
+	uint32_t *ids; /* from malloc */
+	struct plane_builder builder;
+	struct err err;
+	int status;
+};
+
+/* Cells that list up to 'share' primitives are put aside; in scenes of fewer than PARTS_LEAST none are. */
+enum { PARTS = 16, PARTS_LEAST = 4096 };
+
+struct plane_parts {
+	struct part *all;
+	size_t count, room;
+	uint32_t share;
+};
+
+static int put_aside(struct plane_builder *b, const struct task *t, struct err *e)
+{
+	struct plane_parts *parts = b->parts;
+	void *grown = parts->all;
+	int status = array_reserve(&grown, parts->count, &parts->room, 1, sizeof *parts->all, "tree of planes", e);
+	parts->all = grown;
+	if (status != 0)
+		return -1;
+	struct part *p = &parts->all[parts->count];
+	*p = (struct part){ .task = *t, .ids = malloc((t->count + (size_t)1) * sizeof *p->ids) };
+	if (!p->ids)
+		return err_memory(e, "tree of planes");
+	memcpy(p->ids, b->ids + t->first, t->count * sizeof *p->ids);
+	parts->count++;
+	return 0;
+}
 
 static int make_leaf(struct plane_builder *b, const struct task *t, struct err *e)
 {
@@ -129,6 +169,8 @@ static int split(struct plane_builder *b, struct task t, struct err *e)
 {
 	int axis;
 	double plane;
+	if (b->parts && t.count <= b->parts->share)
+		return put_aside(b, &t, e);
 	if (add_box(b, &t, e) != 0)
 		return -1;
 	const struct plane_cell c = { t.bounds, b->ids + t.first, t.count, t.level };
@@ -179,32 +221,26 @@ static int finish(struct accel *a, const struct plane_builder *b, struct err *e)
 	return 0;
 }
 
-static int open_builder(struct plane_builder *b, struct err *e)
+/* Room for the lists of 'count' primitives, and the root. */
+static int open_builder(struct plane_builder *b, const uint32_t *ids, uint32_t count, int depth, struct err *e)
 {
-	const struct primitives *p = b->accel->primitives;
-	b->bounds = malloc(p->count * sizeof *b->bounds);
-	b->spare = malloc(p->count * sizeof *b->spare);
-	if (!b->bounds || !b->spare)
-		return err_memory(e, "tree of planes");
+	bool lost = !(b->spare = malloc((count + (size_t)1) * sizeof *b->spare));
 	for (int i = 0; i < 3; i++) {
-		b->low[i] = malloc(p->count * sizeof *b->low[i]);
-		b->high[i] = malloc(p->count * sizeof *b->high[i]);
-		if (!b->low[i] || !b->high[i])
-			return err_memory(e, "tree of planes");
+		lost |= !(b->low[i] = malloc((count + (size_t)1) * sizeof *b->low[i]));
+		lost |= !(b->high[i] = malloc((count + (size_t)1) * sizeof *b->high[i]));
 	}
-	if (reserve_ids(b, p->count, e) != 0 || reserve_nodes(b, 64, e) != 0)
+	if (lost)
+		return err_memory(e, "tree of planes");
+	if (reserve_ids(b, count, e) != 0 || reserve_nodes(b, 64, e) != 0)
 		return -1;
-	b->tree.nodes[b->tree.node_count++] = (struct plane_node){ .depth = 0 };
-	for (uint32_t i = 0; i < p->count; i++) {
-		b->bounds[i] = primitive_bounds(&p->all[i]);
-		b->ids[b->id_count++] = i;
-	}
+	b->tree.nodes[b->tree.node_count++] = (struct plane_node){ .depth = (uint8_t)depth };
+	for (uint32_t i = 0; i < count; i++)
+		b->ids[b->id_count++] = ids ? ids[i] : i;
 	return 0;
 }
 
 static void close_builder(struct plane_builder *b)
 {
-	free(b->bounds);
 	free(b->spare);
 	for (int i = 0; i < 3; i++) {
 		free(b->low[i]);
@@ -216,22 +252,88 @@ static void close_builder(struct plane_builder *b)
 	free(b->tree.refs);
 }
 
+static void build_part(void *ctx, size_t i)
+{
+	const struct plane_builder *top = ctx;
+	struct part *p = &top->parts->all[i];
+	struct plane_builder *b = &p->builder;
+	*b = (struct plane_builder){ .accel = top->accel, .options = top->options, .rule = top->rule, .slack = top->slack, .margin = top->margin,
+		                     .bounds = top->bounds, .tree.options = top->tree.options };
+	p->status = open_builder(b, p->ids, p->task.count, top->tree.nodes[p->task.node].depth, &p->err);
+	if (p->status == 0)
+		p->status = split(b, (struct task){ .bounds = p->task.bounds, .count = p->task.count, .level = p->task.level }, &p->err);
+}
+
+/* Append a part's nodes, its root in the place that waits for it, its boxes and its lists. */
+static int append_part(struct plane_builder *b, const struct part *p, struct err *e)
+{
+	const struct planes *from = &p->builder.tree;
+	struct planes *to = &b->tree;
+	if (reserve_nodes(b, from->node_count, e) != 0 || reserve_boxes(b, from->box_count, e) != 0 || reserve_refs(b, from->ref_count, e) != 0)
+		return -1;
+	for (uint32_t i = 0; i < from->node_count; i++) {
+		struct plane_node n = from->nodes[i];
+		n.child = n.kind == NODE_LEAF ? 0 : n.child - 1 + to->node_count;
+		n.first += n.kind == NODE_LEAF ? to->ref_count : n.kind == NODE_BOX ? to->box_count : 0;
+		to->nodes[i == 0 ? p->task.node : to->node_count + i - 1] = n;
+	}
+	if (from->box_count)
+		memcpy(to->boxes + to->box_count, from->boxes, from->box_count * sizeof *from->boxes);
+	if (from->ref_count)
+		memcpy(to->refs + to->ref_count, from->refs, from->ref_count * sizeof *from->refs);
+	to->node_count += from->node_count - 1;
+	to->box_count += from->box_count;
+	to->ref_count += from->ref_count;
+	return 0;
+}
+
+/* The top, then the parts that it has put aside. */
+static int build_tree(struct plane_builder *b, struct err *e)
+{
+	const struct accel *a = b->accel;
+	struct plane_parts parts = { .share = a->primitives->count / PARTS };
+	b->parts = a->primitives->count >= PARTS_LEAST ? &parts : NULL;
+	int status = open_builder(b, NULL, a->primitives->count, 0, e);
+	if (status == 0)
+		status = split(b, (struct task){ .bounds = a->root, .count = a->primitives->count }, e);
+	if (status == 0)
+		par_for(a->threads, parts.count, build_part, b);
+	for (size_t i = 0; i < parts.count; i++) {
+		struct part *p = &parts.all[i];
+		if (status == 0 && p->status != 0)
+			*e = p->err;
+		if (status == 0)
+			status = p->status == 0 ? append_part(b, p, e) : -1;
+		close_builder(&p->builder);
+		free(p->ids);
+	}
+	free(parts.all);
+	b->parts = NULL;
+	return status;
+}
+
 int planes_build(struct accel *a, const void *options, const struct plane_options *common, plane_rule *rule, struct err *e)
 {
+	const struct primitives *p = a->primitives;
 	struct plane_builder b = { .accel = a, .options = options, .rule = rule, .tree.options = *common };
 	struct vec size;
-	a->root = root_box(&a->primitives->bounds, (enum root_kind)common->root);
+	a->root = root_box(&p->bounds, (enum root_kind)common->root);
 	a->slack = 1e-9 * box_diagonal(&a->root);
+	a->plane_tests = true;
 	a->travel = TRAVEL_RECURSIVE + (enum travel)common->travel;
 	a->mailbox = (enum mailbox_kind)common->mailbox;
 	size = vec_sub(a->root.hi, a->root.lo);
 	b.slack = a->slack;
 	b.margin = fmax(size.x, fmax(size.y, size.z)) * 0x1p-24;
-	int status = open_builder(&b, e);
+	b.bounds = malloc(p->count * sizeof *b.bounds);
+	int status = b.bounds ? 0 : err_memory(e, "tree of planes");
+	for (uint32_t i = 0; b.bounds && i < p->count; i++)
+		b.bounds[i] = primitive_bounds(&p->all[i]);
 	if (status == 0)
-		status = split(&b, (struct task){ .bounds = a->root, .count = a->primitives->count }, e);
+		status = build_tree(&b, e);
 	if (status == 0)
 		status = finish(a, &b, e);
 	close_builder(&b);
+	free(b.bounds);
 	return status;
 }

@@ -27,4 +27,12 @@ static inline void test_all(const struct primitive *all, const uint32_t *ids, ui
 		primitive_hit(&all[ids[i]], ids[i], r, h);
 }
 
+/* Test a primitive; *h keeps the best so far. */
+static inline __attribute__((always_inline)) void test_one(const struct primitive *all, uint32_t id, const struct ray *r, struct hit *h,
+                                                           struct tally *tally, const bool count)
+{
+	COUNT(barycentric, all[id].kind == PRIMITIVE_TRIANGLE && triangle_plane_met(&all[id].triangle, r, h->t));
+	primitive_hit(&all[id], id, r, h);
+}
+
 #endif

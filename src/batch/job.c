@@ -2,6 +2,7 @@
 
 #include "batch/job_reader.h"
 #include "io/text.h"
+#include "trace/flight.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -88,6 +89,10 @@ static int emit_measure(void *ctx)
 {
 	struct job_reader *r = ctx;
 	void *array = r->job->measures;
+	struct flight flight;
+	struct err fault = { 0 };
+	if (r->measure.render && flight_parse(&flight, r->measure.image.flight, &fault) != 0)
+		return values_fault(&r->values, r->line, "%s", fault.text);
 	render_resolve(&r->measure.image);
 	int status = job_append(r, &array, &r->job->measure_count, &r->measure_room, &r->measure, sizeof r->measure);
 	r->job->measures = array;
@@ -128,6 +133,7 @@ static int read_measure(struct job_reader *r, const struct yaml_node *entry)
 	if (entry->kind != YAML_MAP || (image && (image->kind != YAML_MAP || entry->first->next)))
 		return values_fault(&r->values, entry->line, "a measure is {rays: invariant, count: N, ...} or {render: {width: N, ...}}");
 	r->measure = (struct measure_spec){ .render = image };
+	r->line = entry->line;
 	key_defaults(measure_keys(&r->measure), &r->measure);
 	return values_sweep(&r->values, image ? "render" : "a measure", (image ? image : entry)->first, measure_keys(&r->measure), NULL,
 	                    &r->measure, emit_measure, r);

@@ -11,7 +11,7 @@ struct job_reader {
 	struct values values;
 	const struct job_options *options;
 	const char *folder; /* of the job file, with the slash, or "" */
-	long line;          /* of the scene at hand */
+	long line;          /* of the scene or the measure at hand */
 	struct key keys[40]; /* of the scene family at hand */
 	struct scene_spec scene;
 	struct structure_spec structure;

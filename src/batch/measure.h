@@ -5,7 +5,7 @@
 #include "base/key.h"
 #include "trace/render.h"
 
-enum { RAYS_INVARIANT, RAYS_LINES, RAYS_SEGMENTS, RAYS_SEGMENTS_TWICE, RAYS_INTERIOR };
+enum { RAYS_INVARIANT, RAYS_LINES, RAYS_SEGMENTS, RAYS_SEGMENTS_TWICE, RAYS_INTERIOR, RAYS_INTERIOR_HITS };
 enum { SIDES_TWO, SIDES_ONE, SIDES_EXT };
 
 struct measure_spec {
@@ -27,8 +27,11 @@ static inline const struct key *measure_keys(const struct measure_spec *m)
 }
 
 /* Where rays start and what stops them, in one word: invariant, invariant-one-sided, invariant-ext, lines, segments,
- * segments-twice, interior, render. */
+ * segments-twice, interior, interior-hits, render. */
 const char *measure_workload(const struct measure_spec *m);
+
+/* Whether the option called 'key' means anything beside the others. */
+bool measure_applies(const struct measure_spec *m, const char *key);
 
 /* "rays=invariant count=..." or "render width=...", into out[size]. */
 void measure_print(const struct measure_spec *m, char *out, size_t size);

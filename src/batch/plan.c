@@ -22,7 +22,7 @@ static uint64_t count_levels(uint64_t n)
 
 static uint64_t estimate(const struct accel_ops *ops, const struct measure_spec *m, uint64_t primitives, uint64_t lights)
 {
-	uint64_t rays = m->render ? (uint64_t)m->image.width * (uint64_t)m->image.height * (1 + lights) : (uint64_t)m->count;
+	uint64_t rays = m->render ? (uint64_t)m->image.width * (uint64_t)m->image.height * render_frames(&m->image) * (1 + lights) : (uint64_t)m->count;
 	if (strcmp(ops->name, "list") == 0)
 		return rays * (COST_RAY + COST_TEST * primitives);
 	return COST_PRIMITIVE * primitives + rays * (COST_RAY + COST_RAY_LEVEL * count_levels(primitives));

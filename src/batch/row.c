@@ -59,13 +59,16 @@ const struct column row_columns[] = {
 	OPTION(test, "bvh, kd: what builders take a primitive in a leaf to cost"),
 	OPTION(optimise, "bvh: rounds of reinsertion"),
 	OPTION(kernel, "bvh8: instructions"),
-	TEXT(workload, "invariant, invariant-one-sided, invariant-ext, lines, segments, segments-twice, interior or render"),
+	TEXT(workload, "invariant, invariant-one-sided, invariant-ext, lines, segments, segments-twice, interior, interior-hits or render"),
 	MEASURE(width, "image: pixels"),
 	MEASURE(height, "image: pixels"),
 	MEASURE(sampling, "image: primary rays through pixel centers or corners"),
 	MEASURE(shadows, "image: shadow rays to all lights, or to those that the surface faces"),
 	MEASURE(ray_depth, "image: of the tree of rays; a primary ray has 1"),
 	MEASURE(weight, "image: rays that could add less than this share to a pixel are not shot"),
+	MEASURE(light, "image: where lights stand if not as in the scene: inside or outside the box of the primitives"),
+	MEASURE(flight, "image: places the camera flies through, and what it looks at"),
+	MEASURE(frames, "image: of the flight, whose rays count together"),
 	MEASURE(pilot_width, "image: pixels of the pilot"),
 	MEASURE(pilot_height, "image: pixels of the pilot"),
 	COUNT(rays, "number of rays shot"),
@@ -134,6 +137,9 @@ const struct column row_columns[] = {
 	REAL("actual_tests_se", actual.tests.se, "its standard error"),
 	REAL("actual_tests_made", tests_made.mean, "of these the ones the mailbox did not spare"),
 	REAL("actual_tests_made_se", tests_made.se, "its standard error"),
+	REAL("actual_barycentric", barycentric.mean, "kd, bsp, grid: of the triangles tested those whose plane the ray meets before its hit; "
+	     "a test that begins with the plane does no more for the others"),
+	REAL("actual_barycentric_se", barycentric.se, "its standard error"),
 	REAL("actual_inner_step", actual.inner_step.mean, "inner nodes visited a ray while stepping from leaf to leaf"),
 	REAL("actual_inner_step_se", actual.inner_step.se, "its standard error"),
 	REAL("actual_inner_start", actual.inner_start.mean, "inner nodes visited by the first descent"),
@@ -205,18 +211,33 @@ uint64_t hash_bytes(const char *bytes, size_t count)
 	return hash;
 }
 
-/* Every option that means something, numbers to the last bit. */
-static uint64_t hash_options(uint64_t hash, const struct key *keys, const void *options, const struct accel_ops *ops)
+/* An option, numbers to the last bit, texts whole. */
+static uint64_t hash_option(uint64_t hash, const struct key *k, const void *options)
 {
-	for (const struct key *k = keys; k->name; k++) {
-		char value[64];
-		if (ops && !accel_applies(ops, options, k->name))
-			continue;
-		key_print(k, options, value, sizeof value);
-		if (k->type == KEY_REAL)
-			snprintf(value, sizeof value, "%.17g", *(const double *)(const void *)((const char *)options + k->offset));
-		hash = hash_text(hash_text(hash, k->name), value);
-	}
+	const void *at = (const char *)options + k->offset;
+	char value[64];
+	if (k->type == KEY_TEXT)
+		return hash_text(hash_text(hash, k->name), *(const char *const *)at);
+	key_print(k, options, value, sizeof value);
+	if (k->type == KEY_REAL)
+		snprintf(value, sizeof value, "%.17g", *(const double *)at);
+	return hash_text(hash_text(hash, k->name), value);
+}
+
+/* Every option of the structure that means something. */
+static uint64_t hash_structure(uint64_t hash, const struct structure_spec *s)
+{
+	for (const struct key *k = s->ops->keys; k->name; k++)
+		if (accel_applies(s->ops, s->options, k->name))
+			hash = hash_option(hash, k, s->options);
+	return rng_mix(hash);
+}
+
+static uint64_t hash_measure(uint64_t hash, const struct measure_spec *m)
+{
+	for (const struct key *k = measure_keys(m); k->name; k++)
+		if (measure_applies(m, k->name))
+			hash = hash_option(hash, k, m);
 	return rng_mix(hash);
 }
 
@@ -224,8 +245,7 @@ static uint64_t make_key(const struct job *job, const struct scene_spec *scene, 
                          const struct measure_spec *measure, const struct primitives *p, uint64_t text_hash)
 {
 	uint64_t hash = hash_text(rng_mix(FORMAT), structure->ops->name);
-	hash = hash_options(hash, structure->ops->keys, structure->options, structure->ops);
-	hash = hash_options(hash, measure_keys(measure), measure, NULL);
+	hash = hash_measure(hash_structure(hash, structure), measure);
 	if (measure->render)
 		hash = rng_mix(hash ^ text_hash);
 	hash = rng_mix(hash ^ (uint64_t)job->seed);
@@ -336,6 +356,8 @@ void row_complete(struct row *r, const struct accel *a, const struct measure_spe
 	r->overhead_actual = (actual->leaves.mean + actual->inner_step.mean) / actual->leaves.mean;
 	if (a->mailbox != MAILBOX_NONE)
 		r->tests_made = actual->tests_made;
+	if (a->plane_tests && (measure->render || (measure->rays != RAYS_LINES && measure->rays != RAYS_INTERIOR)))
+		r->barycentric = actual->barycentric;
 	count_flops(r, a);
 	if (measure->render)
 		complete_image(r, a);
@@ -369,7 +391,7 @@ static void print_field(const struct row *r, const struct column *c, char *out, 
 		break;
 	case COLUMN_MEASURE:
 		option = r->measure->render ? key_find(measure_image_keys, c->name) : NULL;
-		if (option)
+		if (option && measure_applies(r->measure, c->name))
 			key_print(option, r->measure, out, size);
 		break;
 	}

@@ -28,6 +28,7 @@ struct row {
 	struct flops flops_exact, flops_actual;
 	double flops_exact_sum, flops_replay_sum, flops_actual_sum;
 	struct mean tests_made; /* only where there is a mailbox */
+	struct mean barycentric; /* only where they are counted */
 	double ratio, ratio_exact, z_exact, z_leaves, z_tests, z_tests_made, z_inner_step, z_inner_start, z_inner, z_boxes;
 	double overhead_predicted, overhead_actual;
 	const struct structure_spec *spec;    /* for the columns that are options */

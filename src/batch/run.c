@@ -167,7 +167,7 @@ static int measure_rays(struct run *r, struct row *row, const struct built *buil
 	 * that they differ by structure only. */
 	uint64_t seed = rng_mix((uint64_t)r->job->seed ^ built->accel.primitives->hash);
 	static const enum workload workloads[] = { WORKLOAD_INVARIANT, WORKLOAD_LINES, WORKLOAD_SEGMENTS, WORKLOAD_SEGMENTS_TWICE,
-	                                           WORKLOAD_INTERIOR };
+	                                           WORKLOAD_INTERIOR, WORKLOAD_INTERIOR_HITS };
 	enum workload workload = m->rays == RAYS_INVARIANT && m->sides != SIDES_TWO ? WORKLOAD_ONE_SIDED : workloads[m->rays];
 	double start = clock_seconds();
 	int status = shoot_rays_until(&row->actual, &built->accel, workload, (uint64_t)m->count, m->error, seed, m->alpha,

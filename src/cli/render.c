@@ -19,6 +19,8 @@ static const char help[] =
 	"  --sampling corners      primary rays through pixel corners instead of centers\n"
 	"  --ray_depth N           of the tree of rays; a primary ray has 1 (5)\n"
 	"  --shadows facing        shadow rays only to lights that the surface faces, not to all\n"
+	"  --light inside|outside  lights moved inside, or outside, the box of the primitives\n"
+	"  --flight 'X Y Z to X Y Z, ...' --frames N   a camera flight; the image is its first frame\n"
 	"  --weight X              rays that could add less than this share to a pixel are not shot (0)\n"
 	"  --structure NAME        octree, list, kd, bsp, grid, bvh or bvh8; its options follow, e.g. --max_objects 5 --root box\n"
 	"  --threads N             threads (default: all processors); the results do not depend on it\n" READING_HELP;

@@ -22,6 +22,7 @@ static const char help[] =
 	"  --variant pre2021   balls: as programs before 2021 placed them\n"
 	"  -n COUNT --cube SIDE --seed S        soup: how many triangles, where, which\n"
 	"  --seed S --camera exterior|interior  city, town, wall: which, and where the camera stands\n"
+	"  --seed S            theater, lab, room, forest, conference: which\n"
 	"  --plan lower|mid    city: irregular quarters, or a regular grid with taller buildings\n"
 	"  -e X -a X -b X -g X                  shells: exponent, alpha, beta, gamma\n";
 

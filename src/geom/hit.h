@@ -17,6 +17,16 @@ static inline bool triangle_hit(const struct triangle *s, const struct ray *r, d
 	return true;
 }
 
+/* Whether the ray meets the plane of a triangle between its start and t = limit. A test that divides first (Wald 2004) ends here where it
+ * does not; the same products as above, which the compiler makes once. */
+static inline bool triangle_plane_met(const struct triangle *s, const struct ray *r, double limit)
+{
+	struct vec e1 = vec_sub(s->v[1], s->v[0]), e2 = vec_sub(s->v[2], s->v[0]);
+	struct vec p = vec_cross(r->d, e2), w = vec_sub(r->o, s->v[0]), q = vec_cross(w, e1);
+	double det = vec_dot(e1, p), sign = det < 0 ? -1 : 1, size = det * sign, t = vec_dot(e2, q) * sign;
+	return t >= 0 && size > 0 && t <= limit * size;
+}
+
 /* The nearest acceptable root. Of a sphere the ray starts on, the root nearest to t = 0 is the start itself. */
 static inline bool sphere_hit(const struct sphere *s, const struct ray *r, uint32_t id, double *t)
 {

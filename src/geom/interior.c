@@ -18,7 +18,7 @@ static double times_log(double factor, double u, double rest, double r)
 {
 	if (factor == 0)
 		return 0;
-	return factor * (u > 0 ? log(u + r) : log(rest) - log(r - u));
+	return factor * log(u > 0 ? u + r : rest / (r - u));
 }
 
 static double integral_plane(double u, double v, double w)

@@ -1,5 +1,6 @@
 #include "report/figures.h"
 
+#include "report/chances.h"
 #include "report/rows.h"
 #include "report/scatter.h"
 #include "report/sweep.h"
@@ -239,5 +240,9 @@ const struct figure figures[] = {
 	{ "costs-octree", "Octrees: cost by height", "Figure 6 of the same.", fill_octree },
 	{ "costs-arts", "Grids: cost by resolution", "Figure 7 of the same.", fill_arts },
 	{ "costs-kd", "k-d trees: cost by height", "Figure 9 of the same.", fill_kd },
+	{ "chances", "Chances that a ray from inside meets a node, over the exact ones",
+	  "Of random nodes of a cube, a hall (1 : 1 : 0.3) and a corridor (1 : 0.3 : 0.3): Fabianowski et al. 2009, eq. (2), (4), (5), over the "
+	  "closed form of eq. (3).", chances_fill_scatter },
+	{ "chances-histogram", "How far the approximations are off", "The same nodes by their ratio.", chances_fill_histogram },
 	{ 0 }
 };

@@ -3,6 +3,7 @@
 #include "report/claims.h"
 #include "report/figures.h"
 #include "report/grids.h"
+#include "report/interiors.h"
 #include "report/ladder.h"
 #include "report/rows.h"
 #include "report/subramanian.h"
@@ -178,6 +179,7 @@ int report_write(const char *folder, struct text *said, struct err *e)
 		add_claims(&page, &t);
 		subramanian_print(&page, &t, &times);
 		grids_print(&page, &t);
+		interiors_print(&page, &t, &times);
 		volumes_add(&page, &t);
 		status = ladder_add(&page, &t, folder, e);
 	}

@@ -136,7 +136,7 @@ static struct ray draw_interior(const struct ray_source *s, uint64_t index)
 {
 	const struct box *b = &s->accel->root;
 	struct draw d = { rng_key(s->seed, WORKLOAD_INTERIOR, index), 0 };
-	struct ray r = { .t_max = INFINITY, .slack = s->accel->slack, .from = NO_PRIMITIVE, .through = true };
+	struct ray r = { .t_max = INFINITY, .slack = s->accel->slack, .from = NO_PRIMITIVE, .through = s->workload == WORKLOAD_INTERIOR };
 	for (int i = 0; i < 3; i++)
 		r.o.a[i] = b->lo.a[i] + next(&d) * (b->hi.a[i] - b->lo.a[i]);
 	r.d = vec_unit(draw_sphere(&d));
@@ -147,7 +147,7 @@ struct ray ray_source_draw(const struct ray_source *s, uint64_t index)
 {
 	if (s->segments)
 		return draw_segment(s, index);
-	if (s->workload == WORKLOAD_INTERIOR)
+	if (s->workload == WORKLOAD_INTERIOR || s->workload == WORKLOAD_INTERIOR_HITS)
 		return draw_interior(s, index);
 	const struct primitives *p = s->accel->primitives;
 	struct draw d = { rng_key(s->seed, s->workload, index), 0 };

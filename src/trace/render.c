@@ -2,6 +2,7 @@
 
 #include "base/par.h"
 #include "trace/camera.h"
+#include "trace/flight.h"
 #include "trace/shade.h"
 
 #include <stdlib.h>
@@ -13,6 +14,7 @@ enum { BLOCK = 1024, BAND = 16 };
 const char *const render_sampling_words[] = { "centers", "corners", NULL };
 const char *const render_shadows_words[] = { "all", "facing", NULL };
 const char *const render_preset_words[] = { "none", "spd", NULL };
+const char *const render_light_words[] = { "scene", "inside", "outside", NULL };
 const char *const ray_class_words[] = { "primary", "shadow", "reflected", "refracted", NULL };
 
 struct alone {
@@ -60,9 +62,10 @@ struct render {
 	const struct render_options *options;
 	const struct render_run *run;
 	struct camera camera;
-	size_t columns, samples, first; /* first: block of the band at hand */
-	struct block_sums *blocks;
-	struct color *colors; /* of every sample */
+	size_t columns, samples; /* samples: of a frame */
+	size_t frame, frames, first; /* at hand; in all; block of the band at hand */
+	struct block_sums *blocks; /* of the frame at hand */
+	struct color *colors; /* of its samples */
 	atomic_bool failed;   /* memory ran out */
 };
 
@@ -194,6 +197,7 @@ static void keep_segment(struct block *b, const struct ray *r, const struct hit 
 		s->segment_room = want;
 	}
 	struct segment *g = &s->segments[s->segment_count++];
+	first += b->render->frame * b->render->samples;
 	*g = (struct segment){ *r, (uint32_t)(first + from->sample), from->class, h->id != NO_PRIMITIVE };
 	g->ray.t_max = h->t;
 }
@@ -295,13 +299,15 @@ static struct mean ratio_mean(double x, double square, double cross, const struc
 	return (struct mean){ mean, n > 1 ? sqrt(spread * n / (n - 1)) / rays : NAN };
 }
 
-static void sum_up(struct rendering *out, const struct render *r, size_t blocks)
+/* From the blocks of all frames. */
+static void sum_up(struct rendering *out, const struct render *r, const struct block_sums *sums, size_t blocks)
 {
 	struct block_sums all = { 0 };
+	size_t samples = r->samples * r->frames;
 	struct actual *a = &out->actual;
 	double alpha = r->run->alpha, beta = r->run->beta;
 	for (size_t i = 0; i < blocks; i++) {
-		const struct block_sums *b = &r->blocks[i];
+		const struct block_sums *b = &sums[i];
 		for (int c = 0; c < RAY_CLASSES; c++) {
 			out->classes[c].rays += b->classes[c].rays;
 			out->classes[c].missed += b->classes[c].missed;
@@ -316,16 +322,16 @@ static void sum_up(struct rendering *out, const struct render *r, size_t blocks)
 		all.step_start += b->step_start;
 	}
 	a->rays = all.rays;
-#define MEAN(field) a->field = ratio_mean((double)a->sum.field, (double)all.square.field, (double)all.cross.field, &all, r->samples);
+#define MEAN(field) a->field = ratio_mean((double)a->sum.field, (double)all.square.field, (double)all.cross.field, &all, samples);
 	TALLY_COUNTS(MEAN)
 #undef MEAN
 	a->inner = ratio_mean((double)a->sum.inner_step + (double)a->sum.inner_start,
 	                      (double)all.square.inner_step + (double)all.square.inner_start + 2 * (double)all.step_start,
-	                      (double)all.cross.inner_step + (double)all.cross.inner_start, &all, r->samples);
+	                      (double)all.cross.inner_step + (double)all.cross.inner_start, &all, samples);
 	double square = alpha * alpha * (double)accel_steps(r->accel, &all.square) + beta * beta * (double)all.square.tests +
 	                2 * alpha * beta * (double)all.steps_tests;
 	a->cost = ratio_mean(alpha * (double)accel_steps(r->accel, &a->sum) + beta * (double)a->sum.tests, square,
-	                     alpha * (double)accel_steps(r->accel, &all.cross) + beta * (double)all.cross.tests, &all, r->samples);
+	                     alpha * (double)accel_steps(r->accel, &all.cross) + beta * (double)all.cross.tests, &all, samples);
 }
 
 static unsigned char to_byte(double x)
@@ -350,16 +356,16 @@ static void fill_pixels(struct rendering *out, const struct render *r)
 		}
 }
 
-static int gather_segments(struct rendering *out, const struct render *r, size_t blocks, struct err *e)
+static int gather_segments(struct rendering *out, const struct block_sums *sums, size_t blocks, struct err *e)
 {
 	size_t count = 0;
 	for (size_t i = 0; i < blocks; i++)
-		count += r->blocks[i].segment_count;
+		count += sums[i].segment_count;
 	out->segments = NEW(&out->mem, struct segment, count);
 	if (!out->segments)
 		return err_memory(e, "pilot image");
 	for (size_t i = 0; i < blocks; i++) {
-		const struct block_sums *b = &r->blocks[i];
+		const struct block_sums *b = &sums[i];
 		if (b->segment_count)
 			memcpy(&out->segments[out->segment_count], b->segments, b->segment_count * sizeof *b->segments);
 		out->segment_count += b->segment_count;
@@ -367,14 +373,14 @@ static int gather_segments(struct rendering *out, const struct render *r, size_t
 	return 0;
 }
 
-/* Band after band, with a word about it between them. */
+/* A frame, band after band, with a word about it between them. */
 static int render_blocks(struct render *r, size_t blocks, struct err *e)
 {
 	const struct render_run *run = r->run;
 	size_t band = (size_t)(run->threads > 1 ? run->threads : 1) * BAND;
 	for (r->first = 0; r->first < blocks; r->first += band) {
 		if (run->progress)
-			run->progress(run->ctx, r->first, blocks);
+			run->progress(run->ctx, r->frame * blocks + r->first, r->frames * blocks);
 		par_for(run->threads, blocks - r->first < band ? blocks - r->first : band, render_block, r);
 		if (atomic_load(&r->failed))
 			return err_memory(e, "rendering");
@@ -384,27 +390,49 @@ static int render_blocks(struct render *r, size_t blocks, struct err *e)
 	return 0;
 }
 
+/* Frame after frame; sums[frames][blocks]. */
+static int render_flight(struct rendering *out, struct render *r, const struct flight *flight, struct block_sums *sums, size_t blocks,
+                         struct err *e)
+{
+	struct view view = r->scene->view;
+	for (r->frame = 0; r->frame < r->frames; r->frame++) {
+		if (flight->count > 0)
+			flight_place(flight, r->frames > 1 ? (double)r->frame / (double)(r->frames - 1) : 0, &view);
+		r->camera = camera_make(&view, &r->accel->primitives->bounds, (double)r->options->width, (double)r->options->height);
+		r->blocks = &sums[r->frame * blocks];
+		memset(r->colors, 0, r->samples * sizeof *r->colors);
+		if (render_blocks(r, blocks, e) != 0)
+			return -1;
+		if (r->frame == 0)
+			fill_pixels(out, r);
+	}
+	return 0;
+}
+
 int render_scene(struct rendering *out, const struct scene *s, const struct accel *a, const struct render_options *o,
                  const struct render_run *run, struct err *e)
 {
 	size_t extra = o->sampling == SAMPLE_CORNERS, columns = (size_t)o->width + extra, rows = (size_t)o->height + extra;
-	size_t blocks = (columns * rows + BLOCK - 1) / BLOCK;
-	struct render r = { .scene = s, .accel = a, .options = o, .run = run, .columns = columns, .samples = columns * rows };
+	size_t blocks = (columns * rows + BLOCK - 1) / BLOCK, frames = render_frames(o);
+	struct scene lit = *s;
+	struct render r = { .scene = &lit, .accel = a, .options = o, .run = run, .columns = columns, .samples = columns * rows, .frames = frames };
+	struct flight flight;
 	*out = (struct rendering){ 0 };
-	r.camera = camera_make(&s->view, &a->primitives->bounds, (double)o->width, (double)o->height);
-	r.blocks = NEW(&out->mem, struct block_sums, blocks);
+	if (flight_parse(&flight, o->flight, e) != 0)
+		return -1;
+	lit.lights = lights_place(&out->mem, s, &a->primitives->bounds, (enum light_place)o->light);
+	struct block_sums *sums = NEW(&out->mem, struct block_sums, frames * blocks);
 	r.colors = NEW(&out->mem, struct color, r.samples);
 	out->pixels = NEW(&out->mem, unsigned char, 3 * (size_t)o->width * (size_t)o->height);
-	int status = r.blocks && r.colors && out->pixels ? 0 : err_memory(e, "rendering");
+	int status = sums && r.colors && out->pixels && (lit.lights || s->light_count == 0) ? 0 : err_memory(e, "rendering");
 	if (status == 0)
-		status = render_blocks(&r, blocks, e);
+		status = render_flight(out, &r, &flight, sums, blocks, e);
 	if (status == 0) {
-		sum_up(out, &r, blocks);
-		fill_pixels(out, &r);
-		status = run->segments ? gather_segments(out, &r, blocks, e) : 0;
+		sum_up(out, &r, sums, frames * blocks);
+		status = run->segments ? gather_segments(out, sums, frames * blocks, e) : 0;
 	}
-	for (size_t i = 0; r.blocks && i < blocks; i++)
-		free(r.blocks[i].segments);
+	for (size_t i = 0; sums && i < frames * blocks; i++)
+		free(sums[i].segments);
 	return status;
 }
 

@@ -20,7 +20,7 @@ int pilot_make(struct pilot *p, const struct scene *s, const struct accel *a, co
 	small.width = width;
 	small.height = height;
 	small.sampling = SAMPLE_LATTICE;
-	p->samples = (size_t)(width * height);
+	p->samples = (size_t)(width * height) * render_frames(o);
 	return render_scene(&p->image, s, a, &small, &run, e);
 }
 

@@ -17,7 +17,7 @@ struct pilot {
 	size_t samples;
 };
 
-/* Render scene s small, by any structure over its primitives. o is resolved; its size is replaced by width x height. 0, or -1 and
+/* Render scene s small, by any structure over its primitives. o is resolved; its size is replaced by width x height, a frame. 0, or -1 and
  * *e: memory, stopped. Free it in any case. */
 int pilot_make(struct pilot *p, const struct scene *s, const struct accel *a, const struct render_options *o, int64_t width,
                int64_t height, int threads, const atomic_int *stop, struct err *e);

@@ -9,8 +9,10 @@
 /* INVARIANT: the law of cost/cost.h, both sides of every primitive. ONE_SIDED: the front sides only. LINES: from the root only,
  * nothing stops them. SEGMENTS: between two points, uniform in the box of the primitives made 20 % longer on every axis; any hit will
  * do (Smits 1999); they are shot in the order drawn, not sorted. SEGMENTS_TWICE: each of them twice, one after the other. INTERIOR: from points uniform in
- * the volume of the root, in uniform directions; nothing stops them (Fabianowski, Fowler, Dingliana 2009). */
-enum workload { WORKLOAD_INVARIANT, WORKLOAD_ONE_SIDED, WORKLOAD_LINES, WORKLOAD_SEGMENTS, WORKLOAD_SEGMENTS_TWICE, WORKLOAD_INTERIOR };
+ * the volume of the root, in uniform directions; nothing stops them (Fabianowski, Fowler, Dingliana 2009).
+ * INTERIOR_HITS: the same rays, each up to its hit. */
+enum workload { WORKLOAD_INVARIANT, WORKLOAD_ONE_SIDED, WORKLOAD_LINES, WORKLOAD_SEGMENTS, WORKLOAD_SEGMENTS_TWICE, WORKLOAD_INTERIOR,
+                WORKLOAD_INTERIOR_HITS };
 
 /* A mean over rays and its standard error. */
 struct mean {
@@ -21,7 +23,7 @@ struct actual {
 	uint64_t rays;
 	struct tally sum; /* exact */
 	/* Per ray; cost = alpha leaves + beta tests, for volumes alpha inner_step + beta tests; inner = inner_step + inner_start. */
-	struct mean cost, leaves, tests, tests_made, inner_step, inner_start, inner, boxes, hits;
+	struct mean cost, leaves, tests, tests_made, barycentric, inner_step, inner_start, inner, boxes, hits;
 	double walk_seconds; /* of all threads, without drawing the rays; the one thing here that is not the same every time */
 };
 
