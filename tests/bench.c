@@ -1,5 +1,6 @@
 /* make bench: building and shooting, timed side by side in one process, one thread each, rounds interleaved; medians and ratios.
  * Embree (libembree-dev) is the peer where it was found at build time. */
+#include "accel/kd_split.h"
 #include "accel/octree.h"
 #include "scene/tessellate.h"
 #include "spd/spd.h"
@@ -145,6 +146,33 @@ static void bench_build(const char *name, const struct primitives *p)
 	accel_free(&a);
 }
 
+/* kd trees by cost, one after the other in every round, and how much longer than by the SAH they take. */
+static void bench_metrics(const struct primitives *p)
+{
+	enum { FEW = 5 };
+	double took[SPLIT_EXACT + 1][FEW], ratio[FEW];
+	for (int i = 0; i < FEW; i++)
+		for (int split = SPLIT_SAH; split <= SPLIT_EXACT; split++) {
+			struct err e = { 0 };
+			struct accel a;
+			struct kd_options o;
+			key_defaults(accel_find("kd")->keys, &o);
+			o.split = split;
+			double start = seconds();
+			if (accel_build(&a, accel_find("kd"), &o, p, &e) != 0) {
+				fprintf(stderr, "%s\n", e.text);
+				exit(1);
+			}
+			took[split][i] = seconds() - start;
+			accel_free(&a);
+		}
+	for (int split = SPLIT_SAH; split <= SPLIT_EXACT; split++) {
+		for (int i = 0; i < FEW; i++)
+			ratio[i] = took[split][i] / took[SPLIT_SAH][i];
+		printf("  kd split=%s: built in %.3f s, %.2f of sah\n", kd_split_words[split], median(took[split], FEW), median(ratio, FEW));
+	}
+}
+
 static double build_octree(struct accel *a, const struct primitives *p, int max_objects)
 {
 	double took[ROUNDS];
@@ -212,6 +240,7 @@ static int bench_scene(const char *family, int size)
 		       p.count / took / 1e6, (double)trees[i].mem.held / (double)trees[i].leaves);
 	}
 	bench_build("kd", &p);
+	bench_metrics(&p);
 	bench_build("bsp", &p);
 	bench_build("grid", &p);
 	struct ray_source source;

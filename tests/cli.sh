@@ -122,6 +122,15 @@ expect 2 "lies outside the job file's folder" "$raycost" run "$work/outside.yaml
 
 # Scenes in POV-Ray's language, whole: every deviation from an exact prediction is within four standard errors.
 expect 0 '48 rows, 0 failed' "$raycost" run jobs/pov.yaml --set count=5000 --set max_depth=5 --set resolution=2 -o "$work/pov"
+
+# Rays from inside: the comparison's plan, and the same of a scene of one's own, with its tables.
+expect 0 '64 rows' "$raycost" run jobs/fabianowski2009.yaml --dry-run
+"$raycost" spd room -s 2 -o "$work/room.nff"
+expect 2 'outside' "$raycost" run jobs/meshes.yaml --set mesh="$work/room.nff" --dry-run
+expect 0 '12 rows, 0 failed' "$raycost" run jobs/meshes.yaml --allow-outside --set mesh="$work/room.nff" --set pixels=16 --set rays=2000 \
+	--set depth=10 -o "$work/meshes"
+expect 0 'what eq. (3) assumes' cat "$work/meshes/report.html"
+expect 0 'The trees' cat "$work/meshes/report.html"
 expect 0 '48 rows, all within' awk -F, '
 	NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^z_/) column[i] }
 	NR > 1 { for (i in column) { all += $i != ""; far += ($i + 0 > 4 || $i + 0 < -4) } }

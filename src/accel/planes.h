@@ -92,7 +92,8 @@ struct plane_builder {
 };
 
 /* Build the tree of a->primitives into a->impl. options: of the structure, for its rule; common: those of them that all trees have.
- * Parts of it are built on up to a->threads threads; the tree does not depend on how many. 0, or -1 and *e: memory, more than 2^32 nodes or references. */
+ * Parts of it are built on up to a->threads threads; the tree does not depend on how many. 0, or -1 and *e: memory, more than 2^32
+ * nodes or references. */
 int planes_build(struct accel *a, const void *options, const struct plane_options *common, plane_rule *rule, struct err *e);
 
 /* The rest of what the door asks for. */

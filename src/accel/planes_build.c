@@ -231,7 +231,7 @@ static int open_builder(struct plane_builder *b, const uint32_t *ids, uint32_t c
 	}
 	if (lost)
 		return err_memory(e, "tree of planes");
-	if (reserve_ids(b, count, e) != 0 || reserve_nodes(b, 64, e) != 0)
+	if (reserve_ids(b, count + (size_t)1, e) != 0 || reserve_nodes(b, 64, e) != 0)
 		return -1;
 	b->tree.nodes[b->tree.node_count++] = (struct plane_node){ .depth = (uint8_t)depth };
 	for (uint32_t i = 0; i < count; i++)

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { NODES = 600, SHAPES = 3, APPROXIMATIONS = 3, BINS = 60, CUTS = 12 };
+enum { NODES = 600, SHAPES = 3, APPROXIMATIONS = 3, BINS = 66, CUTS = 12 };
 
 static const struct {
 	const char *name;
@@ -51,7 +51,7 @@ bool chances_fill_scatter(struct plot *p, const struct table *t, const char *fol
 
 bool chances_fill_histogram(struct plot *p, const struct table *t, const char *folder)
 {
-	const double low = 0.2, high = 2.6, width = (high - low) / BINS;
+	const double low = 0.2, high = 3.5, width = (high - low) / BINS;
 	(void)folder;
 	if (!interiors_hold(t))
 		return false;

@@ -182,9 +182,10 @@ static void print_kind(struct text *page, const struct table *t, const struct ta
 	size_t count = list_scenes(t, scenes, k);
 	if (count == 0)
 		return;
-	text_print(page, "<h2>%s</h2>\n<p>Per cent more than by the SAH (eq. 2); under it inner nodes, plane tests and, where there are any, barycentric tests a ray.",
-	           k->title);
-	text_print(page, "%s</p>\n<div class=\"wide\"><table><thead><tr><th>scene</th><th>sah</th>", k == &kinds[FLIGHT] ? " In brackets the paper's numbers." : "");
+	text_print(page, "<h2>%s</h2>\n<p>Per cent more than by the SAH (eq. 2); under it inner nodes, plane tests and, where there are any, "
+	           "barycentric tests a ray.", k->title);
+	text_print(page, "%s</p>\n<div class=\"wide\"><table><thead><tr><th>scene</th><th>sah</th>",
+	           k == &kinds[FLIGHT] ? " In brackets the paper's numbers." : "");
 	for (int m = 1; m < METRICS; m++)
 		text_print(page, "<th>%s: traversals</th><th>plane tests</th><th>triangle tests</th><th>rays/s</th>", metrics[m]);
 	text_print(page, "</tr></thead><tbody>\n");
@@ -269,8 +270,8 @@ static void print_others(struct text *page, const struct table *t, const struct 
 	size_t count = list_scenes(t, scenes, &kinds[LIGHT_OUTSIDE]);
 	if (count == 0)
 		return;
-	text_print(page, "<h2>Where the light stands (table 2)</h2>\n<p>By eq. (5), per cent more than by the SAH; in brackets the frames per second of the "
-	           "paper's ports.</p>\n<div class=\"wide\"><table><thead><tr><th>rays</th><th>traversals</th><th>plane tests</th><th>rays/s</th></tr>"
+	text_print(page, "<h2>Where the light stands (table 2)</h2>\n<p>By eq. (5), per cent more than by the SAH; in brackets the frames per second "
+	           "of the paper's ports.</p>\n<div class=\"wide\"><table><thead><tr><th>rays</th><th>traversals</th><th>plane tests</th><th>rays/s</th></tr>"
 	           "</thead><tbody>\n");
 	for (size_t i = 0; i < count; i++) {
 		print_setting(page, t, times, "primary rays (unshadowed)", scenes[i], &kinds[FLIGHT], "primary", 2.5);
