@@ -95,8 +95,9 @@ bench: $(BUILD)/tests/bench $(BUILD)/tests/bench_bvh $(BUILD)/tests/bench_pov ##
 	@./$(BUILD)/tests/bench_bvh
 	@./$(BUILD)/tests/bench_pov $(wildcard jobs/scenes/*.pov $(EXAMPLES:%=/usr/share/doc/povray/examples/%.pov))
 
-# Examples of POV-Ray that bench reads: one of every kind.
-EXAMPLES := advanced/abyss advanced/chess2 advanced/isocacti
+# Examples of POV-Ray that bench reads: long programs, large CSG, functions, and those that ask trace() most.
+EXAMPLES := advanced/abyss advanced/balcony/balcony advanced/benchmark/benchmark advanced/chess2 advanced/isocacti advanced/teapot/teapot3 \
+            advanced/woodbox bsp/Tango incdemo/shapes language/tracevines
 
 check-pov: $(BUILD)/tests/check_pov ## hold POV-Ray's example scenes against POV-Ray (needs povray, povray-examples, povray-includes)
 	@sh tests/check_pov.sh ./$(BUILD)/tests/check_pov $(SCENES) $(LEAST)

@@ -57,6 +57,64 @@ static void bad_recursion(void **state)
 	}
 }
 
+/* Whatever is wrong, the message tells how the reader came there. */
+static void stacks(void **state)
+{
+	(void)state;
+	const struct file all[] = {
+		{ "scenes/in.inc", "#macro Open() sphere { 0, 1 + }\n#end\n#macro Loop() #while (1) #end #end\n#macro Many() #declare A = array[1000000000]; #end\n"
+		                   "#macro Font() text { ttf \"no.ttf\" \"x\" 1, 0 } #end\n#macro Image() height_field { png \"no.png\" } #end\n"
+		                   "#macro Garbage() #include \"bin.inc\" #end\n"
+		                   "#macro Deep() #declare A = sphere { 0, 1 }; #while (1) #declare A = difference { object { A } object { A } }; #end #end" },
+		{ "scenes/bin.inc", "\x01\x02\x03" },
+		{ "scenes/loop.inc", "#include \"loop.inc\"" },
+		{ NULL, NULL },
+	};
+	static const struct { const char *call, *message; } cases[] = {
+		{ "Open()", "scenes/in.inc:1: '}' where a value should be" },
+		{ "Loop()", "scenes/in.inc:3: more rounds of loops than the budget of 100000" },
+		{ "Many()", "scenes/in.inc:4: an array of 1000000000 elements exceeds the budget of 20000000 bytes" },
+		{ "Font()", "scenes/in.inc:5: cannot find 'no.ttf'" },
+		{ "Image()", "scenes/in.inc:6: 'no.png' cannot be found" },
+		{ "Garbage()", "scenes/bin.inc:1: binary data (byte 0x01), included from scenes/in.inc:7" },
+		{ "Deep()", "scenes/in.inc:8: more memory than the budget of 20000000 bytes" },
+	};
+	struct pov_options o = make_options(all);
+	o.budget.rounds = 100000;
+	o.budget.bytes = 20000000;
+	o.strict = true;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		char text[200], want[400];
+		snprintf(text, sizeof text, "#include \"in.inc\"\n\n%s", cases[i].call);
+		snprintf(want, sizeof want, "%s, in macro %.*s from scenes/a.pov:3", cases[i].message, (int)strcspn(cases[i].call, "("), cases[i].call);
+		refuse_with(text, &o, want);
+	}
+	/* Of a deep stack the innermost. */
+	refuse_with("#include \"loop.inc\"", &o, "scenes/loop.inc:1: inclusions and macros within each other more than the budget of 200 deep, "
+	            "included from scenes/loop.inc:1, included from scenes/loop.inc:1, included from scenes/loop.inc:1, included from scenes/loop.inc:1");
+	refuse_with("\n#macro M() M() #end\nM()", &o, "scenes/a.pov:2: inclusions and macros within each other more than the budget of 200 deep, "
+	            "in macro M from scenes/a.pov:2, in macro M from scenes/a.pov:2, in macro M from scenes/a.pov:2, in macro M from scenes/a.pov:2");
+}
+
+/* Without strictness what is missing is told, not refused. */
+static void missing_fonts_and_images(void **state)
+{
+	(void)state;
+	struct scene s = { 0 };
+	struct err e = { 0 };
+	struct pov_summary m;
+	struct text line = { 0 };
+	struct pov_options o = make_options(NULL);
+	assert_int_equal(read_text(&s, "sphere { 0, 1 }\ntext { ttf \"no.ttf\" \"x\" 1, 0 }\nheight_field { png \"no.png\" }", &o, &m, &e), 0);
+	assert_int_equal(s.object_count, 1);
+	assert_int_equal(m.tally.skipped, 2);
+	pov_summary_print(&m, &line);
+	assert_non_null(strstr(line.bytes, "skipped 2 (text"));
+	assert_non_null(strstr(line.bytes, "height_field"));
+	text_free(&line);
+	scene_free(&s);
+}
+
 static void budgets(void **state)
 {
 	(void)state;
@@ -95,7 +153,7 @@ static void truncated(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(bad_input), cmocka_unit_test(bad_recursion), cmocka_unit_test(budgets),
+		cmocka_unit_test(bad_input), cmocka_unit_test(bad_recursion), cmocka_unit_test(stacks), cmocka_unit_test(missing_fonts_and_images), cmocka_unit_test(budgets),
 		cmocka_unit_test(truncated),
 	};
 	return cmocka_run_group_tests_name("pov_refusals", tests, NULL, NULL);

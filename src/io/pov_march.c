@@ -189,9 +189,9 @@ static struct box march(const struct pov_solid *s, const struct box *box, double
 	return g.extent;
 }
 
-void pov_march(const struct pov_solid *s, const struct box *box, double step, const struct pov_drawing *d)
+struct box pov_march(const struct pov_solid *s, const struct box *box, double step, const struct pov_drawing *d)
 {
-	march(s, box, step, d);
+	return march(s, box, step, d);
 }
 
 struct box pov_march_extent(const struct pov_solid *s, const struct box *box, double step)

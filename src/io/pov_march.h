@@ -12,10 +12,10 @@ struct vec pov_root(double (*field)(const void *context, struct vec p), const vo
 
 /* Draw the zero surface of the shape's field within the box: marching tetrahedra on a grid of cells as near cubes of side 'step' as the box
  * allows, six around the diagonal of each cell (Kuhn's), which meet face to face. Blocks of cells that 'reach' proves empty are passed
- * over. The surface is closed but where it leaves the box. */
-void pov_march(const struct pov_solid *s, const struct box *box, double step, const struct pov_drawing *d);
+ * over. The surface is closed but where it leaves the box. Returns a box about the cells that the surface passes; empty if none does. */
+struct box pov_march(const struct pov_solid *s, const struct box *box, double step, const struct pov_drawing *d);
 
-/* A box about the cells of such a grid that the surface passes; empty if none does. */
+/* That box alone. */
 struct box pov_march_extent(const struct pov_solid *s, const struct box *box, double step);
 
 #endif

@@ -161,12 +161,13 @@ static void mesh_isosurface(const struct pov_solid *s, const struct pov_drawing 
 {
 	struct box box = isosurface_bounds(s);
 	double cells = ISO_CELLS * d->n / 32.0, step = box_longest(&box) / cells;
-	struct box found = pov_march_extent(s, &box, step), wide = box_enlarge(&found, step), tight = box_common(&box, &wide);
-	if (box_is_empty(&found))
+	size_t before = d->out->count;
+	struct box found = pov_march(s, &box, step, d), wide = box_enlarge(&found, step), tight = box_common(&box, &wide);
+	if (box_is_empty(&found) || box_longest(&tight) >= 0.7 * box_longest(&box))
 		return;
-	if (box_longest(&tight) < 0.7 * box_longest(&box))
-		box = tight;
-	pov_march(s, &box, box_longest(&box) / cells, d);
+	/* Small in its container, and seen too coarsely. */
+	d->out->count = before;
+	pov_march(s, &tight, box_longest(&tight) / cells, d);
 }
 
 const struct pov_shape pov_shape_isosurface = {
