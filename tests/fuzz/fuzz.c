@@ -31,17 +31,6 @@ static void set_options(const struct accel_ops *ops, unsigned char *options)
 		*(int64_t *)(void *)(options + depth->offset) = DEPTH_MOST;
 }
 
-/* What the ray hits without a structure. One that leads out of the root hits nothing, but in a hierarchy what it touches (accel.h). */
-static bool shoot_bare(const struct accel *list, bool volumes, const struct ray *r, struct hit *h)
-{
-	if (!volumes)
-		return list->ops->shoot(list, r, h);
-	*h = hit_none(r);
-	for (uint32_t i = 0; i < list->primitives->count; i++)
-		primitive_hit(&list->primitives->all[i], i, r, h);
-	return h->id != NO_PRIMITIVE;
-}
-
 static void shoot_both(const struct accel *list, const struct accel *a)
 {
 	struct ray_source source;
@@ -52,7 +41,7 @@ static void shoot_both(const struct accel *list, const struct accel *a)
 		struct ray r = ray_source_draw(&source, i);
 		struct hit want, got, counted, many;
 		struct tally tally = { 0 }, tally_many;
-		bool hit = shoot_bare(list, a->volumes, &r, &want);
+		bool hit = list->ops->shoot(list, &r, &want);
 		MUST(a->ops->shoot(a, &r, &got) == a->ops->shoot_counted(a, &r, &counted, &tally));
 		a->ops->shoot_many(a, &r, 1, &many, &tally_many);
 		MUST(got.id == counted.id && got.id == many.id && tally.tests == tally_many.tests && tally.leaves == tally_many.leaves);
