@@ -178,14 +178,15 @@ static struct box march(const struct pov_solid *s, const struct box *box, double
 {
 	struct grid g = { .s = s, .field = pov_shape_of(s)->field, .box = *box, .d = d, .extent = box_empty() };
 	int at[3] = { 0, 0, 0 }, size = BLOCK;
+	if (box_is_empty(box))
+		return g.extent;
 	for (int a = 0; a < 3; a++) {
 		double cells = ceil((box->hi.a[a] - box->lo.a[a]) / step - 1e-9);
-		g.count[a] = cells < 1 ? 1 : cells > CELLS_MOST ? CELLS_MOST : (int)cells;
+		g.count[a] = !(cells >= 1) ? 1 : cells > CELLS_MOST ? CELLS_MOST : (int)cells;
 		while (size < g.count[a])
 			size *= 2;
 	}
-	if (!box_is_empty(box))
-		visit(&g, at, size);
+	visit(&g, at, size);
 	return g.extent;
 }
 
