@@ -47,14 +47,19 @@ void spd_add_quad(struct scene *s, struct vec a, struct vec b, struct vec c, str
 	scene_add_polygon(s, corners, 4);
 }
 
-void spd_add_box(struct scene *s, struct vec lo, struct vec hi)
+void spd_add_sides(struct scene *s, struct vec lo, struct vec hi, const int side[6][4])
 {
-	static const int side[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
 	struct vec p[8];
 	for (int i = 0; i < 8; i++)
 		p[i] = vec(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
 	for (int i = 0; i < 6; i++)
 		spd_add_quad(s, p[side[i][0]], p[side[i][1]], p[side[i][2]], p[side[i][3]]);
+}
+
+void spd_add_box(struct scene *s, struct vec lo, struct vec hi)
+{
+	static const int side[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
+	spd_add_sides(s, lo, hi, side);
 }
 
 void spd_add_triangle(struct scene *s, struct vec a, struct vec b, struct vec c)

@@ -31,6 +31,9 @@ void spd_add_cone(struct scene *s, const struct spd_options *o, struct vec base,
 /* A polygon of four corners. */
 void spd_add_quad(struct scene *s, struct vec a, struct vec b, struct vec c, struct vec d);
 
+/* The six sides of a box, each four corners in order. Bits 0, 1, 2 of a corner's number say whether x, y, z are those of hi. */
+void spd_add_sides(struct scene *s, struct vec lo, struct vec hi, const int side[6][4]);
+
 /* The six sides of a box, seen from outside. */
 void spd_add_box(struct scene *s, struct vec lo, struct vec hi);
 

@@ -12,11 +12,7 @@ static const struct spd_material water = { { 0.20, 0.35, 0.45 }, 0.4, 0.6, 3, 0,
 static void add_box(struct scene *s, struct vec lo, struct vec hi)
 {
 	static const int face[6][4] = { { 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } };
-	struct vec corner[8];
-	for (int i = 0; i < 8; i++)
-		corner[i] = vec(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
-	for (int f = 0; f < 6; f++)
-		spd_add_quad(s, corner[face[f][0]], corner[face[f][1]], corner[face[f][2]], corner[face[f][3]]);
+	spd_add_sides(s, lo, hi, face);
 }
 
 static void add_ground(struct scene *s)

@@ -19,11 +19,7 @@ void spd_place(struct scene *s, size_t first, struct vec x, struct vec y, struct
 void spd_add_hall(struct scene *s, struct vec lo, struct vec hi)
 {
 	static const int side[6][4] = { { 0, 1, 3, 2 }, { 4, 6, 7, 5 }, { 0, 2, 6, 4 }, { 1, 5, 7, 3 }, { 0, 4, 5, 1 }, { 2, 3, 7, 6 } };
-	struct vec p[8];
-	for (int i = 0; i < 8; i++)
-		p[i] = vec(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
-	for (int i = 0; i < 6; i++)
-		spd_add_quad(s, p[side[i][0]], p[side[i][1]], p[side[i][2]], p[side[i][3]]);
+	spd_add_sides(s, lo, hi, side);
 }
 
 void spd_add_part(struct scene *s, struct vec at, struct vec corner, struct vec size)
