@@ -129,7 +129,7 @@ static bool halve(const struct bend *b, const struct corner *p, const struct cor
 {
 	double length = vec_length(vec_sub(q->p, p->p)), r = surroundings * length;
 	middle->p = vec_scale(vec_add(p->p, q->p), 0.5);
-	if (!ball_meets(middle->p, r, &b->leaf->box))
+	if (!isfinite(length) || !ball_meets(middle->p, r, &b->leaf->box)) /* too long for a double's square: cut as it is */
 		return false;
 	middle->f = bend_field(b, middle->p);
 	if (length <= b->longest)
