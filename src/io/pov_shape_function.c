@@ -124,7 +124,7 @@ double *pov_heights_sample(struct arena *a, struct pov_function f, int width, in
 /* An isosurface: marched through its container, which caps it (io/pov_term.c adds the container as a solid of its own). */
 
 /* ISO_HALVINGS: of a line, at most. */
-enum { ISO_CELLS = 60, ISO_HALVINGS = 20 };
+enum { ISO_CELLS = 60, ISO_HALVINGS = 16 };
 
 static struct box container(bool spherical, const struct pov_sphere *ball, const struct pov_box *b)
 {
