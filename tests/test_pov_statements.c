@@ -161,12 +161,28 @@ static void same_triangles(void **state)
 	scene_free(&s[1]);
 }
 
+/* Blobs and isosurfaces, and what is cut of them, where POV-Ray meets them when told to look closely. */
+static void fields(void **state)
+{
+	(void)state;
+	const char *blob = "blob { threshold 0.6 sphere { 0, 1, 1 } cylinder { -x, y, 0.5, 1.5 scale <1, 1, 2> } "
+	                   "sphere { 0, 1, -0.7 scale <0.3, 0.45, 0.8> translate 0.3*y } rotate 30*z }";
+	const char *ridges = "isosurface { function { sqrt(x*x + pow(y/1.5, 2) + z*z) - 1 - sin(atan2(x, z)*8)*0.1 } max_gradient 3 "
+	                     "accuracy 1e-9 contained_by { sphere { 0, 1.2 } } rotate 20*x }";
+	char cut[512];
+	snprintf(cut, sizeof cut, "difference { %s plane { y, 0 } plane { x, 0.1 inverse } }", blob);
+	assert_hit(blob, "<0.1, 0.2, -4>, z", 0.1, 0.2, -0.392782662);
+	assert_hit(cut, "<-0.1, -4, 0.1>, y", -0.1, 0, 0.1);
+	assert_hit(ridges, "<0.3, 0.2, -4>, z", 0.3, 0.2, -0.880034364);
+	assert_hit(ridges, "<0.3, 4, 0.2>, -y", 0.3, 1.144552314, 0.2);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(no_hit), cmocka_unit_test(separators), cmocka_unit_test(patch_types), cmocka_unit_test(height_fields),
 		cmocka_unit_test(clips_move), cmocka_unit_test(lamps), cmocka_unit_test(bent_polygons), cmocka_unit_test(patches_in_combinations),
-		cmocka_unit_test(same_triangles),
+		cmocka_unit_test(same_triangles), cmocka_unit_test(fields),
 	};
 	return cmocka_run_group_tests_name("pov_statements", tests, NULL, NULL);
 }

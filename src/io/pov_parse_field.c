@@ -181,15 +181,28 @@ static bool is_accuracy_word(uint32_t word)
 	       word == WORD_evaluate || word == WORD_precompute;
 }
 
-/* Words that say how exactly POV-Ray is to look. */
-static void skip_accuracy(struct pov *p, uint32_t word)
+/* Words that say how exactly POV-Ray is to look, by their first number. */
+static double read_accuracy(struct pov *p, uint32_t word)
 {
 	if (word == WORD_all_intersections)
-		return;
-	pov_float(p);
+		return 0;
+	double x = pov_float(p);
 	/* evaluate a, b, c; precompute n, x, y, z */
 	while (pov_accept(p, ','))
 		pov_float(p);
+	return x;
+}
+
+/* evaluate: the gradient is found on the way. */
+static void read_iso_accuracy(struct pov *p, struct pov_isosurface *f, uint32_t word)
+{
+	double x = read_accuracy(p, word);
+	if (word == WORD_accuracy)
+		f->accuracy = x;
+	else if (word == WORD_max_gradient)
+		f->gradient = x;
+	else if (word == WORD_evaluate)
+		f->gradient = 0;
 }
 
 /* A function in place or by name; false: its values are not known. */
@@ -219,6 +232,8 @@ void pov_read_isosurface(struct pov *p, struct pov_solid *s)
 	struct pov_isosurface *f = &s->shape.isosurface;
 	bool known = false;
 	f->box = (struct pov_box){ { vec(-1, -1, -1), vec(1, 1, 1) } };
+	f->accuracy = 0.001;
+	f->gradient = 1.1;
 	for (;;) {
 		pov_skip_separators(p);
 		const struct pov_token *t = pov_peek(p);
@@ -238,7 +253,7 @@ void pov_read_isosurface(struct pov *p, struct pov_solid *s)
 			s->open = pov_flag(p);
 		} else if (is_accuracy_word(word)) {
 			pov_take(p);
-			skip_accuracy(p, word);
+			read_iso_accuracy(p, f, word);
 		} else {
 			break;
 		}
@@ -269,7 +284,7 @@ void pov_read_parametric(struct pov *p, struct pov_solid *s)
 			f->contained = true;
 			f->spherical = read_container(p, &f->sphere, &f->box);
 		} else {
-			skip_accuracy(p, word);
+			read_accuracy(p, word);
 		}
 	}
 	if (!known)

@@ -87,3 +87,35 @@ void pov_draw_quad(const struct pov_drawing *d, struct vec a, struct vec b, stru
 	pov_draw(d, a, b, c);
 	pov_draw(d, a, c, e);
 }
+
+struct vec pov_line_point(const struct pov_line *line, double t)
+{
+	return vec_add(line->from, vec_scale(line->toward, t));
+}
+
+bool pov_line_clip_sphere(struct pov_line *line, const struct pov_sphere *s)
+{
+	double square = vec_dot(line->toward, line->toward), middle = vec_dot(vec_sub(s->center, line->from), line->toward) / square;
+	struct vec off = vec_sub(pov_line_point(line, middle), s->center);
+	double half = (s->radius * s->radius - vec_dot(off, off)) / square;
+	if (!(half > 0))
+		return false;
+	line->least = fmax(line->least, middle - sqrt(half));
+	line->most = fmin(line->most, middle + sqrt(half));
+	return line->least < line->most;
+}
+
+bool pov_line_clip_box(struct pov_line *line, const struct box *b)
+{
+	for (int i = 0; i < 3; i++) {
+		double from = line->from.a[i], way = line->toward.a[i];
+		if (way == 0 && (from < b->lo.a[i] || from > b->hi.a[i]))
+			return false;
+		if (way == 0)
+			continue;
+		double s = (b->lo.a[i] - from) / way, t = (b->hi.a[i] - from) / way;
+		line->least = fmax(line->least, fmin(s, t));
+		line->most = fmin(line->most, fmax(s, t));
+	}
+	return line->least < line->most;
+}

@@ -28,6 +28,22 @@ int pov_draw_rows(const struct pov_drawing *d, double length, double width);
 /* The quadrilateral as two triangles. */
 void pov_draw_quad(const struct pov_drawing *d, struct vec a, struct vec b, struct vec c, struct vec e);
 
+/* A line from + t toward in a shape's own space, t from 'least' to 'most', and who is told where it passes through the surface: t rises,
+ * and true ends the search. room: for working space, as much as the shape asks for. */
+struct pov_line {
+	struct vec from, toward;
+	double least, most;
+	bool (*meet)(void *context, double t);
+	void *context;
+	double *room;
+};
+
+struct vec pov_line_point(const struct pov_line *line, double t);
+
+/* Narrow the line to a sphere or a box; false: it misses. */
+bool pov_line_clip_sphere(struct pov_line *line, const struct pov_sphere *s);
+bool pov_line_clip_box(struct pov_line *line, const struct box *b);
+
 struct pov_shape {
 	const char *name;
 
@@ -53,6 +69,12 @@ struct pov_shape {
 
 	/* A box about the inside, where it reaches further than the surface; else NULL. */
 	struct box (*filled)(const struct pov_solid *s);
+
+	/* Every place where the line passes through the surface. NULL: rays are to meet the mesh. */
+	void (*cross)(const struct pov_solid *s, const struct pov_line *line);
+
+	/* Numbers of working space that 'cross' needs; NULL: none. */
+	size_t (*room)(const struct pov_solid *s);
 };
 
 const struct pov_shape *pov_shape_of(const struct pov_solid *s);

@@ -1,30 +1,15 @@
 /* blob: threshold - sum of strength (1 - d^2 / radius^2)^2 over the components nearer than their radius; d is the distance to a
  * point or to a segment, in each component's own space. */
+#include "io/pov_blob.h"
 #include "io/pov_march.h"
 #include "io/pov_place.h"
-#include "io/pov_tree.h"
 
 enum { CELLS_A_RADIUS = 7, CELLS_LEAST = 2, CELLS_MOST = 4000, CELLS_MANY = 200000 };
 
-struct component {
-	struct pov_component given;
-	struct matrix back;
-	double shrink; /* the most 'back' stretches */
-	struct box box;
-};
-
-struct sealed {
-	struct component *all;
-	uint32_t count;
-	struct pov_tree tree;
-	struct box box;
-	double finest, area; /* the least radius; of the boxes of all components */
-};
-
-static int seal_component(struct component *c, const struct pov_component *given)
+static int seal_component(struct pov_sealed_component *c, const struct pov_component *given)
 {
 	double least;
-	*c = (struct component){ .given = *given, .box = box_empty() };
+	*c = (struct pov_sealed_component){ .given = *given, .box = box_empty() };
 	if (!pov_place_invert(&given->place, &c->back) || !(given->radius > 0) || given->strength == 0)
 		return 1;
 	pov_place_stretch(&c->back, &least, &c->shrink);
@@ -40,14 +25,14 @@ static int seal_component(struct component *c, const struct pov_component *given
 static int seal_blob(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
 	const struct pov_blob *b = &s->shape.blob;
-	struct sealed *q = NEW(a, struct sealed, 1);
+	struct pov_sealed_blob *q = NEW(a, struct pov_sealed_blob, 1);
 	struct box *boxes = NEW(a, struct box, b->count);
-	if (!q || !boxes || !(q->all = NEW(a, struct component, b->count)))
+	if (!q || !boxes || !(q->all = NEW(a, struct pov_sealed_component, b->count)))
 		return err_memory(e, "blob");
 	q->box = box_empty();
 	q->finest = INFINITY;
 	for (size_t i = 0; i < b->count; i++) {
-		struct component *c = &q->all[q->count];
+		struct pov_sealed_component *c = &q->all[q->count];
 		if (seal_component(c, &b->components[i]) != 0)
 			continue;
 		boxes[q->count++] = c->box;
@@ -65,12 +50,12 @@ static int seal_blob(struct arena *a, struct pov_solid *s, const char **why, str
 
 static struct box blob_bounds(const struct pov_solid *s)
 {
-	return ((const struct sealed *)s->sealed)->box;
+	return ((const struct pov_sealed_blob *)s->sealed)->box;
 }
 
 /* A question about the field at p, or within r of it. */
 struct query {
-	const struct sealed *blob;
+	const struct pov_sealed_blob *blob;
 	struct vec p;
 	double r, sum;
 };
@@ -84,7 +69,7 @@ static bool is_near(void *context, const struct box *b)
 	return true;
 }
 
-static double component_distance(const struct component *c, struct vec p)
+static double component_distance(const struct pov_sealed_component *c, struct vec p)
 {
 	struct vec w = vec_sub(matrix_point(p, &c->back), c->given.end[0]), way = vec_sub(c->given.end[1], c->given.end[0]);
 	double square = vec_dot(way, way), t = square > 0 ? fmin(1, fmax(0, vec_dot(w, way) / square)) : 0;
@@ -94,7 +79,7 @@ static double component_distance(const struct component *c, struct vec p)
 static void add_strength(void *context, uint32_t i)
 {
 	struct query *q = context;
-	const struct component *c = &q->blob->all[i];
+	const struct pov_sealed_component *c = &q->blob->all[i];
 	double d = component_distance(c, q->p) / c->given.radius;
 	if (d < 1)
 		q->sum += c->given.strength * (1 - d * d) * (1 - d * d);
@@ -111,7 +96,7 @@ static double blob_field(const struct pov_solid *s, struct vec p)
 static void add_change(void *context, uint32_t i)
 {
 	struct query *q = context;
-	const struct component *c = &q->blob->all[i];
+	const struct pov_sealed_component *c = &q->blob->all[i];
 	double d = component_distance(c, q->p) / c->given.radius, r = q->r * c->shrink / c->given.radius;
 	if (d - r < 1)
 		q->sum += fabs(c->given.strength) * fmin(1, 1.5397 * r);
@@ -126,12 +111,12 @@ static double blob_reach(const struct pov_solid *s, struct vec p, double r)
 
 static double blob_feature(const struct pov_solid *s)
 {
-	return ((const struct sealed *)s->sealed)->finest;
+	return ((const struct pov_sealed_blob *)s->sealed)->finest;
 }
 
 static void mesh_blob(const struct pov_solid *s, const struct pov_drawing *d)
 {
-	const struct sealed *q = s->sealed;
+	const struct pov_sealed_blob *q = s->sealed;
 	double step = q->finest / CELLS_A_RADIUS * 32 / d->n;
 	/* Where small components beside large ones would make too many cells these are larger. */
 	step = fmin(fmax(step, sqrt(q->area / CELLS_MANY)), q->finest / CELLS_LEAST);
@@ -140,5 +125,5 @@ static void mesh_blob(const struct pov_solid *s, const struct pov_drawing *d)
 
 const struct pov_shape pov_shape_blob = {
 	.name = "blob", .seal = seal_blob, .bounds = blob_bounds, .field = blob_field, .reach = blob_reach,
-	.feature = blob_feature, .mesh = mesh_blob,
+	.feature = blob_feature, .mesh = mesh_blob, .cross = pov_blob_cross, .room = pov_blob_room,
 };

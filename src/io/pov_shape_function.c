@@ -123,7 +123,8 @@ double *pov_heights_sample(struct arena *a, struct pov_function f, int width, in
 
 /* An isosurface: marched through its container, which caps it (io/pov_term.c adds the container as a solid of its own). */
 
-enum { ISO_CELLS = 60 };
+/* ISO_HALVINGS: of a line, at most. */
+enum { ISO_CELLS = 60, ISO_HALVINGS = 16 };
 
 static struct box container(bool spherical, const struct pov_sphere *ball, const struct pov_box *b)
 {
@@ -170,9 +171,58 @@ static void mesh_isosurface(const struct pov_solid *s, const struct pov_drawing 
 	pov_march(s, &tight, box_longest(&tight) / cells, d);
 }
 
+/* A stretch of a line: the field at its ends. slope: the most the field changes in a unit of t. */
+struct stretch {
+	const struct pov_solid *s;
+	const struct pov_line *line;
+	double slope, shortest;
+};
+
+static double field_at(const void *context, struct vec p)
+{
+	return isosurface_field(context, p);
+}
+
+static double value_at(const struct stretch *h, double t)
+{
+	return isosurface_field(h->s, pov_line_point(h->line, t));
+}
+
+/* Between ends of different signs, as far along the line. */
+static double root_between(const struct stretch *h, double t, double f, double u, double g)
+{
+	struct vec p = pov_line_point(h->line, t), q = pov_line_point(h->line, u);
+	struct vec at = f < 0 ? pov_root(field_at, h->s, p, f, q, g) : pov_root(field_at, h->s, q, g, p, f);
+	return fmin(u, fmax(t, vec_dot(vec_sub(at, h->line->from), h->line->toward) / vec_dot(h->line->toward, h->line->toward)));
+}
+
+/* Halved while the field could pass zero by its slope, as POV-Ray looks for it; true: enough was seen. */
+static bool cross_stretch(const struct stretch *h, double t, double f, double u, double g)
+{
+	bool passes = (f < 0) != (g < 0);
+	if (!passes && fabs(f) + fabs(g) >= h->slope * (u - t))
+		return false;
+	if (u - t <= h->shortest)
+		return passes && h->line->meet(h->line->context, root_between(h, t, f, u, g));
+	double middle = (t + u) / 2, value = value_at(h, middle);
+	return cross_stretch(h, t, f, middle, value) || cross_stretch(h, middle, value, u, g);
+}
+
+static void cross_isosurface(const struct pov_solid *s, const struct pov_line *line)
+{
+	const struct pov_isosurface *q = &s->shape.isosurface;
+	struct pov_line within = *line;
+	struct box box = isosurface_bounds(s);
+	if (q->spherical ? !pov_line_clip_sphere(&within, &q->sphere) : !pov_line_clip_box(&within, &box))
+		return;
+	double unit = vec_length(line->toward), length = within.most - within.least;
+	struct stretch h = { s, line, q->gradient * unit, fmax(q->accuracy / unit, ldexp(length, -ISO_HALVINGS)) };
+	cross_stretch(&h, within.least, value_at(&h, within.least), within.most, value_at(&h, within.most));
+}
+
 const struct pov_shape pov_shape_isosurface = {
 	.name = "isosurface", .seal = seal_isosurface, .bounds = isosurface_bounds, .field = isosurface_field,
-	.slope = INFINITY, .mesh = mesh_isosurface,
+	.slope = INFINITY, .mesh = mesh_isosurface, .cross = cross_isosurface,
 };
 
 /* A parametric surface: a grid over u, v. */

@@ -56,8 +56,22 @@ static void mesh_sphere(const struct pov_solid *s, const struct pov_drawing *d)
 			              sphere_point(&s->shape.sphere, i + 1, rows, j + 1, n), sphere_point(&s->shape.sphere, i, rows, j + 1, n));
 }
 
+static void cross_sphere(const struct pov_solid *s, const struct pov_line *line)
+{
+	struct pov_line within = *line;
+	within.least = -INFINITY;
+	within.most = INFINITY;
+	if (!pov_line_clip_sphere(&within, &s->shape.sphere))
+		return;
+	if (within.least > line->least && within.least < line->most && line->meet(line->context, within.least))
+		return;
+	if (within.most > line->least && within.most < line->most)
+		line->meet(line->context, within.most);
+}
+
 const struct pov_shape pov_shape_sphere = {
 	.name = "sphere", .seal = seal_sphere, .bounds = sphere_box, .field = sphere_field, .slope = 1, .mesh = mesh_sphere,
+	.cross = cross_sphere,
 };
 
 static int seal_cone(struct arena *a, struct pov_solid *s, const char **why, struct err *e)

@@ -157,10 +157,11 @@ struct pov_text {
 	struct vec offset;
 };
 
-/* The set value(x, y, z) < threshold within the container, a sphere or a box. */
+/* The set value(x, y, z) < threshold within the container, a sphere or a box. accuracy, gradient: how near rays look, and the most the
+ * value is said to change in a unit; gradient 0: not said. */
 struct pov_isosurface {
 	struct pov_function function;
-	double threshold;
+	double threshold, accuracy, gradient;
 	bool spherical;
 	struct pov_sphere sphere;
 	struct pov_box box;
@@ -235,9 +236,10 @@ bool pov_solid_inside(const struct pov_solid *s, struct vec p);
  * Clips and bounds do not count, nor what a difference takes away, as there. */
 struct box pov_solid_extent(const struct pov_solid *s);
 
-/* POV-Ray's trace(): the first point of the surface on the ray from 'from' along 'toward' (any length), by the surface pov_mesh
- * makes at the default resolution; normal: unit, outward (inward of what is inverse), as there. The mesh is made at the first call
- * and kept in the arena with the node, so trace before moving on, not after changing the shape. false: a miss, *at and *normal zero;
+/* POV-Ray's trace(): the first point of the surface on the ray from 'from' along 'toward' (any length); normal: unit, outward (inward of
+ * what is inverse), as there. Blobs and isosurfaces, alone or combined with each other, planes, boxes and spheres, are met themselves;
+ * of the rest it is the surface pov_mesh makes at the default resolution. What the rays need is made at the first call and kept in the
+ * arena with the node, so trace before moving on, not after changing the shape. false: a miss, *at and *normal zero;
  * memory out is a miss. */
 bool pov_solid_trace(struct arena *a, struct pov_solid *s, struct vec from, struct vec toward, struct vec *at, struct vec *normal);
 

@@ -1,9 +1,13 @@
-/* trace(): the surface as triangles with a tree over them, made at the first call. A hit on a facet is moved along the ray onto the
- * shape the facet stands for. */
+/* trace(): what rays can meet itself is met so; else the surface as triangles with a tree over them, made at the first call. A hit on a
+ * facet is moved along the ray onto the shape the facet stands for. */
+#include "io/pov_field_trace.h"
 #include "io/pov_march.h"
 #include "io/pov_surface.h"
 
+/* direct: the solid, where no facets are needed; room: working space of its rays. */
 struct pov_traced {
+	const struct pov_term *direct;
+	double *room;
 	struct pov_facets facets; /* 'material' is the number of the leaf; all in the arena of the solid */
 	struct pov_term **leaves;
 	uint32_t leaf_count;
@@ -36,36 +40,46 @@ static struct box near_part(struct box b, double far)
 	return b;
 }
 
+/* The facets of a solid and the tree over them; false when memory is out. */
+static bool make_facets(struct arena *a, struct pov_traced *t, struct pov_term *term, int resolution)
+{
+	struct arena scratch = { 0 };
+	struct pov_facets list = { .most = 10000000 };
+	number_leaves(t, term);
+	t->leaves = NEW(a, struct pov_term *, t->leaf_count);
+	t->leaf_count = 0;
+	if (t->leaves)
+		number_leaves(t, term);
+	struct pov_surface surface = { .region = near_part(term->extent, wide), .close = near_part(term->extent, narrow), .n = resolution,
+		                       .least = 0.75, .plain = true, .scratch = &scratch };
+	surface.size = box_diagonal(&surface.region);
+	if (t->leaves && term->kind != TERM_EMPTY)
+		pov_surface(&surface, term, false, &list);
+	struct box *boxes = NEW(&scratch, struct box, list.count);
+	for (size_t i = 0; boxes && i < list.count; i++)
+		boxes[i] = pov_facet_box(&list.all[i]);
+	t->facets.all = arena_grow(a, list.all, list.count, list.count, sizeof *list.all);
+	t->facets.count = list.count;
+	bool done = t->leaves && !list.lost && boxes && t->facets.all && pov_tree_build(&t->tree, a, boxes, (uint32_t)list.count) == 0;
+	pov_facets_free(&list);
+	arena_free(&scratch);
+	return done;
+}
+
 static struct pov_traced *make(struct arena *a, const struct pov_solid *s)
 {
 	struct pov_mesh_options options = pov_mesh_defaults();
 	struct pov_tally tally = { 0 };
-	struct arena scratch = { 0 };
 	struct pov_traced *t = NEW(a, struct pov_traced, 1);
 	struct pov_term *term = pov_term_resolve(a, s, &options, &tally);
-	struct pov_facets list = { .most = 10000000 };
-	bool done = false;
-	if (t && term) {
-		number_leaves(t, term);
-		t->leaves = NEW(a, struct pov_term *, t->leaf_count);
-		t->leaf_count = 0;
-		if (t->leaves)
-			number_leaves(t, term);
-		struct pov_surface surface = { .region = near_part(term->extent, wide), .close = near_part(term->extent, narrow),
-			                       .n = options.resolution, .least = 0.75, .plain = true, .scratch = &scratch };
-		surface.size = box_diagonal(&surface.region);
-		if (t->leaves && term->kind != TERM_EMPTY)
-			pov_surface(&surface, term, false, &list);
-		struct box *boxes = NEW(&scratch, struct box, list.count);
-		for (size_t i = 0; boxes && i < list.count; i++)
-			boxes[i] = pov_facet_box(&list.all[i]);
-		t->facets.all = arena_grow(a, list.all, list.count, list.count, sizeof *list.all);
-		t->facets.count = list.count;
-		done = t->leaves && !list.lost && boxes && t->facets.all && pov_tree_build(&t->tree, a, boxes, (uint32_t)list.count) == 0;
-	}
-	pov_facets_free(&list);
-	arena_free(&scratch);
-	return done ? t : NULL;
+	size_t room;
+	if (!t || !term)
+		return NULL;
+	if (!pov_field_traceable(term, &room))
+		return make_facets(a, t, term, options.resolution) ? t : NULL;
+	t->direct = term;
+	t->room = NEW(a, double, room);
+	return t->room ? t : NULL;
 }
 
 struct search {
@@ -155,6 +169,8 @@ bool pov_solid_trace(struct arena *a, struct pov_solid *s, struct vec from, stru
 	struct search q = { s->traced, from, vec_unit(toward), INFINITY, UINT32_MAX };
 	if (!s->traced || vec_length(q.toward) == 0)
 		return false;
+	if (s->traced->direct)
+		return pov_field_trace(s->traced->direct, from, q.toward, s->traced->room, at, normal);
 	pov_tree_visit(&s->traced->tree, enter, test, &q);
 	if (q.facet == UINT32_MAX)
 		return false;
