@@ -22,7 +22,8 @@ struct pov_facets {
 	bool lost, full;
 };
 
-/* Triangles with two corners in one place, or with one that no number tells, are left out; those of no area else stay, for without them their neighbours would not meet. */
+/* Triangles with two corners in one place, or with one that no number tells, are left out; those of no area else stay, for
+ * without them their neighbours would not meet. */
 void pov_facets_add(struct pov_facets *f, const struct vec *v, uint32_t material);
 
 /* Empty, the memory kept. */
