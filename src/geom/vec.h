@@ -3,6 +3,7 @@
 #define GEOM_VEC_H
 
 #include <math.h>
+#include <stdbool.h>
 
 struct vec {
 	union {
@@ -44,6 +45,11 @@ static inline struct vec vec_cross(struct vec p, struct vec q)
 static inline double vec_length(struct vec p)
 {
 	return sqrt(vec_dot(p, p));
+}
+
+static inline bool vec_is_finite(struct vec p)
+{
+	return isfinite(p.x) && isfinite(p.y) && isfinite(p.z);
 }
 
 /* p / |p|; a zero vector stays zero. */

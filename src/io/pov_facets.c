@@ -7,14 +7,9 @@ static bool same_place(struct vec p, struct vec q)
 	return p.x == q.x && p.y == q.y && p.z == q.z;
 }
 
-static bool is_place(struct vec p)
-{
-	return isfinite(p.x) && isfinite(p.y) && isfinite(p.z);
-}
-
 void pov_facets_add(struct pov_facets *f, const struct vec *v, uint32_t material)
 {
-	if (!is_place(v[0]) || !is_place(v[1]) || !is_place(v[2]))
+	if (!vec_is_finite(v[0]) || !vec_is_finite(v[1]) || !vec_is_finite(v[2]))
 		return;
 	if (f->lost || f->full || same_place(v[0], v[1]) || same_place(v[1], v[2]) || same_place(v[2], v[0]))
 		return;

@@ -146,19 +146,9 @@ static struct vec half_normal(const struct pov_term *t, struct vec at)
 	return best->normal;
 }
 
-static struct vec slope_at(const struct pov_term *t, struct vec at)
+static struct vec normal_at(const struct pov_term *t, struct vec at)
 {
-	struct vec slope;
-	double h = near * t->feature;
-	if (t->half_count)
-		return half_normal(t, at);
-	for (int i = 0; i < 3; i++) {
-		struct vec p = at, q = at;
-		p.a[i] -= h;
-		q.a[i] += h;
-		slope.a[i] = pov_term_field(t, q) - pov_term_field(t, p);
-	}
-	return vec_unit(slope);
+	return t->half_count ? half_normal(t, at) : pov_term_slope(t, at, near * t->feature);
 }
 
 bool pov_field_trace(const struct pov_term *t, struct vec from, struct vec toward, double *room, struct vec *at, struct vec *normal)
@@ -168,6 +158,6 @@ bool pov_field_trace(const struct pov_term *t, struct vec from, struct vec towar
 	if (!s.hit)
 		return false;
 	*at = vec_add(from, vec_scale(toward, s.nearest));
-	*normal = vec_scale(slope_at(s.hit, *at), s.turned ? -1 : 1);
+	*normal = vec_scale(normal_at(s.hit, *at), s.turned ? -1 : 1);
 	return true;
 }

@@ -242,11 +242,6 @@ static struct vec sheet_point(const struct pov_parametric *q, double i, double j
 	return p;
 }
 
-static bool is_place(struct vec p)
-{
-	return isfinite(p.x) && isfinite(p.y) && isfinite(p.z);
-}
-
 static int seal_parametric(struct arena *a, struct pov_solid *s, const char **why, struct err *e)
 {
 	const struct pov_parametric *q = &s->shape.parametric;
@@ -261,7 +256,7 @@ static int seal_parametric(struct arena *a, struct pov_solid *s, const char **wh
 	for (int i = 0; i <= SHEET_SAMPLES; i++)
 		for (int j = 0; j <= SHEET_SAMPLES; j++) {
 			struct vec p = sheet_point(q, (double)i / SHEET_SAMPLES, (double)j / SHEET_SAMPLES);
-			if (is_place(p))
+			if (vec_is_finite(p))
 				box_extend(&sheet->box, p);
 		}
 	if (q->contained) {
@@ -285,7 +280,7 @@ static void mesh_parametric(const struct pov_solid *s, const struct pov_drawing 
 		for (int j = 0; j < n; j++) {
 			double u = (double)i / n, v = (double)j / n, un = (i + 1.0) / n, vn = (j + 1.0) / n;
 			struct vec a = sheet_point(q, u, v), b = sheet_point(q, un, v), c = sheet_point(q, un, vn), e = sheet_point(q, u, vn);
-			if (is_place(a) && is_place(b) && is_place(c) && is_place(e))
+			if (vec_is_finite(a) && vec_is_finite(b) && vec_is_finite(c) && vec_is_finite(e))
 				pov_draw_quad(d, a, b, c, e);
 		}
 }

@@ -24,6 +24,18 @@ double pov_term_field(const struct pov_term *t, struct vec p)
 	return pov_shape_of(t->shape)->field(t->shape, matrix_point(p, &t->back));
 }
 
+struct vec pov_term_slope(const struct pov_term *t, struct vec at, double h)
+{
+	struct vec slope;
+	for (int i = 0; i < 3; i++) {
+		struct vec p = at, q = at;
+		p.a[i] -= h;
+		q.a[i] += h;
+		slope.a[i] = pov_term_field(t, q) - pov_term_field(t, p);
+	}
+	return vec_unit(slope);
+}
+
 static struct pov_term *new_term(struct resolver *r, enum pov_term_kind kind)
 {
 	struct pov_term *t = NEW(r->mem, struct pov_term, 1);

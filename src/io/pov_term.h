@@ -58,5 +58,7 @@ int pov_term_clip_box(struct arena *a, struct pov_term *t);
 
 /* Of a leaf, at a point of the scene; inversion not included. */
 double pov_term_field(const struct pov_term *t, struct vec p);
+/* The way the field rises at a point, unit, from differences over h to both sides. */
+struct vec pov_term_slope(const struct pov_term *t, struct vec at, double h);
 
 #endif

@@ -128,19 +128,6 @@ static double leaf_field(const void *context, struct vec p)
 	return pov_term_field(context, p);
 }
 
-/* The field's slope at a point, unit. */
-static struct vec slope_at(const struct pov_term *leaf, struct vec at, double h)
-{
-	struct vec slope;
-	for (int i = 0; i < 3; i++) {
-		struct vec p = at, r = at;
-		p.a[i] -= h;
-		r.a[i] += h;
-		slope.a[i] = pov_term_field(leaf, r) - pov_term_field(leaf, p);
-	}
-	return vec_unit(slope);
-}
-
 /* Onto the leaf's own surface, which is as far off as the field says; then the normal is that of the field, else the facet's. */
 static void polish(const struct search *q, const struct pov_facet *f, const struct pov_term *leaf, struct vec *at, struct vec *normal)
 {
@@ -155,7 +142,7 @@ static void polish(const struct search *q, const struct pov_facet *f, const stru
 		*at = pov_root(leaf_field, leaf, before, a, behind, b);
 	else if (a > 0 && b < 0)
 		*at = pov_root(leaf_field, leaf, behind, b, before, a);
-	struct vec own = slope_at(leaf, *at, 1e-4 * edge);
+	struct vec own = pov_term_slope(leaf, *at, 1e-4 * edge);
 	double along = vec_dot(own, *normal);
 	if (fabs(along) > 0.8)
 		*normal = vec_scale(own, along > 0 ? 1 : -1);

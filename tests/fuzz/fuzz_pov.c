@@ -33,7 +33,7 @@ static bool match_none(void *context, const char *folder, const char *name, char
 static void check_scene(const struct scene *s)
 {
 	for (size_t i = 0; i < s->point_count; i++)
-		MUST(isfinite(s->points[i].x) && isfinite(s->points[i].y) && isfinite(s->points[i].z));
+		MUST(vec_is_finite(s->points[i]));
 	for (size_t i = 0; i < s->object_count; i++)
 		MUST(s->objects[i].material == NO_MATERIAL || s->objects[i].material < s->material_count);
 }
