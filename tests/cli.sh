@@ -276,6 +276,16 @@ expect 0 'primary' "$raycost" render "$work/gears.nff" --width 16 --height 16 -o
 expect 0 'PNG' head -c 4 "$work/gears.png"
 expect 2 'needs a value' "$raycost" render "$work/gears.nff" --width
 
+# A row tells how many rays were shot, more than asked for where they were not enough to be sure.
+cat >"$work/sure.yaml" <<'JOB'
+name: sure
+scenes: [{spd: balls, size: 1, tessellate: true}]
+structures: [octree: {max_depth: 4}]
+measure: [{rays: invariant, count: 3001, error: 0.02}]
+JOB
+expect 0 '1 rows, 0 failed' "$raycost" run "$work/sure.yaml" -o "$work/sure"
+expect 0 'more' awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i } NR == 2 && $column["rays"] > 3001 { print "more" }' "$work/sure/counts.csv"
+
 # A gate: equal records are good; the report is written before the verdict.
 expect 0 '108 rows compared, 0 missing, 0 new: good' "$raycost" compare "$work/t1" "$work/t2"
 expect 0 'good' "$raycost" compare "$work/t1" "$work/t2" --fail-if rays_per_second:99.9% --fail-if actual:0

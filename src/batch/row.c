@@ -338,6 +338,8 @@ void row_complete(struct row *r, const struct accel *a, const struct measure_spe
 	const struct prediction *p = &r->predicted;
 	const struct actual *actual = &r->actual;
 	r->status = "ok";
+	if (!measure->render)
+		r->rays = actual->rays;
 	r->nodes = a->nodes;
 	r->leaves = a->leaves;
 	r->empty_leaves = a->empty_leaves;
