@@ -2,6 +2,7 @@
 
 #include "batch/load.h"
 #include "batch/row.h"
+#include "batch/row_key.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -58,8 +58,6 @@ void row_identify(struct row *r, const struct job *job, const struct scene_spec 
 /* Predictions and measured counts are in place: fill in what was built, and what follows from them. */
 void row_complete(struct row *r, const struct accel *a, const struct measure_spec *measure);
 
-uint64_t hash_bytes(const char *bytes, size_t count);
-
 /* The row, or the head, as a line of CSV with its newline. */
 void row_print(const struct row *r, struct text *line);
 void row_print_head(struct text *line);

@@ -9,6 +9,7 @@
 #include "batch/plan.h"
 #include "batch/record.h"
 #include "batch/row.h"
+#include "batch/row_key.h"
 #include "batch/summary.h"
 #include "cost/stop.h"
 
