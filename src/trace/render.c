@@ -3,6 +3,7 @@
 #include "base/par.h"
 #include "trace/camera.h"
 #include "trace/flight.h"
+#include "trace/render_sums.h"
 #include "trace/shade.h"
 
 #include <stdlib.h>
@@ -47,15 +48,6 @@ struct wave {
 	size_t count, room;
 };
 
-/* What a block of samples sums up, in integers. */
-struct block_sums {
-	struct class_tally classes[RAY_CLASSES];
-	struct tally square, cross; /* per sample: counts squared, and times the sample's rays */
-	uint64_t rays, rays_square, steps_tests, step_start;
-	struct segment *segments;   /* from malloc, or NULL */
-	size_t segment_count, segment_room;
-};
-
 struct render {
 	const struct scene *scene;
 	const struct accel *accel;
@@ -64,7 +56,7 @@ struct render {
 	struct camera camera;
 	size_t columns, samples; /* samples: of a frame */
 	size_t frame, frames, first; /* at hand; in all; block of the band at hand */
-	struct block_sums *blocks; /* of the frame at hand */
+	struct render_sums *blocks; /* of the frame at hand */
 	struct color *colors; /* of its samples */
 	atomic_bool failed;   /* memory ran out */
 };
@@ -72,7 +64,7 @@ struct render {
 /* A block at work. */
 struct block {
 	const struct render *render;
-	struct block_sums *sums;
+	struct render_sums *sums;
 	struct color *colors;
 	struct tally tally[BLOCK]; /* of every sample */
 	uint32_t rays[BLOCK];
@@ -185,7 +177,7 @@ static void push_bounces(struct block *b, const struct surface_point *p, const s
 
 static void keep_segment(struct block *b, const struct ray *r, const struct hit *h, const struct origin *from, size_t first)
 {
-	struct block_sums *s = b->sums;
+	struct render_sums *s = b->sums;
 	if (s->segment_count == s->segment_room) {
 		size_t want = s->segment_room ? 2 * s->segment_room : 2 * BLOCK;
 		void *grown = realloc(s->segments, want * sizeof *s->segments);
@@ -246,23 +238,6 @@ static void shoot_wave(struct block *b, size_t first)
 	b->next = done;
 }
 
-/* Squares and products of what the samples' rays cost. */
-static void sum_samples(struct block *b, size_t count)
-{
-	struct block_sums *s = b->sums;
-	for (size_t i = 0; i < count; i++) {
-		const struct tally *n = &b->tally[i];
-		uint64_t rays = b->rays[i];
-#define ADD(field) s->square.field += n->field * n->field; s->cross.field += n->field * rays;
-		TALLY_COUNTS(ADD)
-#undef ADD
-		s->steps_tests += accel_steps(b->render->accel, n) * n->tests;
-		s->step_start += n->inner_step * n->inner_start;
-		s->rays += rays;
-		s->rays_square += rays * rays;
-	}
-}
-
 static void render_block(void *ctx, size_t i)
 {
 	struct render *r = ctx;
@@ -281,57 +256,13 @@ static void render_block(void *ctx, size_t i)
 	push_primaries(b, first, count);
 	while (b->now.count > 0 && !b->lost)
 		shoot_wave(b, first);
-	sum_samples(b, count);
+	for (size_t k = 0; k < count; k++)
+		render_sums_add(b->sums, r->accel, &b->tally[k], b->rays[k]);
 	if (b->lost)
 		atomic_store(&r->failed, true);
 	wave_free(&b->now);
 	wave_free(&b->next);
 	free(b);
-}
-
-/* Mean of a ratio estimator and its standard error by the delta method: x summed over samples, x^2, x times rays. */
-static struct mean ratio_mean(double x, double square, double cross, const struct block_sums *all, size_t samples)
-{
-	double rays = (double)all->rays, n = (double)samples;
-	if (rays == 0)
-		return (struct mean){ NAN, NAN };
-	double mean = x / rays, spread = fmax(0, square - 2 * mean * cross + mean * mean * (double)all->rays_square);
-	return (struct mean){ mean, n > 1 ? sqrt(spread * n / (n - 1)) / rays : NAN };
-}
-
-/* From the blocks of all frames. */
-static void sum_up(struct rendering *out, const struct render *r, const struct block_sums *sums, size_t blocks)
-{
-	struct block_sums all = { 0 };
-	size_t samples = r->samples * r->frames;
-	struct actual *a = &out->actual;
-	double alpha = r->run->alpha, beta = r->run->beta;
-	for (size_t i = 0; i < blocks; i++) {
-		const struct block_sums *b = &sums[i];
-		for (int c = 0; c < RAY_CLASSES; c++) {
-			out->classes[c].rays += b->classes[c].rays;
-			out->classes[c].missed += b->classes[c].missed;
-			tally_add(&out->classes[c].sum, &b->classes[c].sum);
-			tally_add(&a->sum, &b->classes[c].sum);
-		}
-		tally_add(&all.square, &b->square);
-		tally_add(&all.cross, &b->cross);
-		all.rays += b->rays;
-		all.rays_square += b->rays_square;
-		all.steps_tests += b->steps_tests;
-		all.step_start += b->step_start;
-	}
-	a->rays = all.rays;
-#define MEAN(field) a->field = ratio_mean((double)a->sum.field, (double)all.square.field, (double)all.cross.field, &all, samples);
-	TALLY_COUNTS(MEAN)
-#undef MEAN
-	a->inner = ratio_mean((double)a->sum.inner_step + (double)a->sum.inner_start,
-	                      (double)all.square.inner_step + (double)all.square.inner_start + 2 * (double)all.step_start,
-	                      (double)all.cross.inner_step + (double)all.cross.inner_start, &all, samples);
-	double square = alpha * alpha * (double)accel_steps(r->accel, &all.square) + beta * beta * (double)all.square.tests +
-	                2 * alpha * beta * (double)all.steps_tests;
-	a->cost = ratio_mean(alpha * (double)accel_steps(r->accel, &a->sum) + beta * (double)a->sum.tests, square,
-	                     alpha * (double)accel_steps(r->accel, &all.cross) + beta * (double)all.cross.tests, &all, samples);
 }
 
 static unsigned char to_byte(double x)
@@ -356,7 +287,7 @@ static void fill_pixels(struct rendering *out, const struct render *r)
 		}
 }
 
-static int gather_segments(struct rendering *out, const struct block_sums *sums, size_t blocks, struct err *e)
+static int gather_segments(struct rendering *out, const struct render_sums *sums, size_t blocks, struct err *e)
 {
 	size_t count = 0;
 	for (size_t i = 0; i < blocks; i++)
@@ -365,7 +296,7 @@ static int gather_segments(struct rendering *out, const struct block_sums *sums,
 	if (!out->segments)
 		return err_memory(e, "pilot image");
 	for (size_t i = 0; i < blocks; i++) {
-		const struct block_sums *b = &sums[i];
+		const struct render_sums *b = &sums[i];
 		if (b->segment_count)
 			memcpy(&out->segments[out->segment_count], b->segments, b->segment_count * sizeof *b->segments);
 		out->segment_count += b->segment_count;
@@ -391,7 +322,7 @@ static int render_blocks(struct render *r, size_t blocks, struct err *e)
 }
 
 /* Frame after frame; sums[frames][blocks]. */
-static int render_flight(struct rendering *out, struct render *r, const struct flight *flight, struct block_sums *sums, size_t blocks,
+static int render_flight(struct rendering *out, struct render *r, const struct flight *flight, struct render_sums *sums, size_t blocks,
                          struct err *e)
 {
 	struct view view = r->scene->view;
@@ -421,14 +352,14 @@ int render_scene(struct rendering *out, const struct scene *s, const struct acce
 	if (flight_parse(&flight, o->flight, e) != 0)
 		return -1;
 	lit.lights = lights_place(&out->mem, s, &a->primitives->bounds, (enum light_place)o->light);
-	struct block_sums *sums = NEW(&out->mem, struct block_sums, frames * blocks);
+	struct render_sums *sums = NEW(&out->mem, struct render_sums, frames * blocks);
 	r.colors = NEW(&out->mem, struct color, r.samples);
 	out->pixels = NEW(&out->mem, unsigned char, 3 * (size_t)o->width * (size_t)o->height);
 	int status = sums && r.colors && out->pixels && (lit.lights || s->light_count == 0) ? 0 : err_memory(e, "rendering");
 	if (status == 0)
 		status = render_flight(out, &r, &flight, sums, blocks, e);
 	if (status == 0) {
-		sum_up(out, &r, sums, frames * blocks);
+		render_sum_up(out, a, run, r.samples * r.frames, sums, frames * blocks);
 		status = run->segments ? gather_segments(out, sums, frames * blocks, e) : 0;
 	}
 	for (size_t i = 0; sums && i < frames * blocks; i++)
