@@ -96,6 +96,7 @@ static void cut_halves(const struct pov_half *halves, int count, struct in_plane
 /* Cutting by a curved leaf. */
 struct bend {
 	const struct pov_term *leaf;
+	struct box seen;       /* beyond it the leaf decides nothing, or nothing is wanted */
 	double longest, flush; /* edges longer than that are halved; a field so near to zero is zero */
 	struct pov_facets *in, *out;
 	uint32_t material;
@@ -129,7 +130,7 @@ static bool halve(const struct bend *b, const struct corner *p, const struct cor
 {
 	double length = vec_length(vec_sub(q->p, p->p)), r = surroundings * length;
 	middle->p = vec_scale(vec_add(p->p, q->p), 0.5);
-	if (!isfinite(length) || !ball_meets(middle->p, r, &b->leaf->box)) /* too long for a double's square: cut as it is */
+	if (!isfinite(length) || !ball_meets(middle->p, r, &b->seen)) /* too long for a double's square: cut as it is */
 		return false;
 	middle->f = bend_field(b, middle->p);
 	if (length <= b->longest)
@@ -205,7 +206,7 @@ static void cut_bent(const struct pov_cutter *c, struct pov_term *leaf, const st
 	struct box seen = box_common(&leaf->extent, &c->region);
 	double size = box_longest(&seen), fine = fmax(fmin(leaf->feature, size) / FINE, size / FINEST);
 	double slope = pov_shape_of(leaf->shape)->slope, part = c->size > 0 ? fmin(1, fmax(c->least, sqrt(size / c->size))) : 1;
-	struct bend b = { leaf, 1.5 * fine * 32 / (c->n * part), 0, in, out, f->material, &leaf->cut };
+	struct bend b = { leaf, box_common(&leaf->box, &c->within), 1.5 * fine * 32 / (c->n * part), 0, in, out, f->material, &leaf->cut };
 	struct corner corner[3];
 	if (slope > 0 && isfinite(slope))
 		b.flush = flush * slope * (box_longest(&leaf->extent) + vec_length(leaf->extent.lo)) * leaf->squeeze;

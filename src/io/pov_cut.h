@@ -4,12 +4,13 @@
 
 #include "io/pov_term.h"
 
-/* How finely curved solids cut: region: of all that is meshed, for the size of what is unbounded; n: segments of a full circle
+/* How finely curved solids cut: region: of all that is meshed, for the size of what is unbounded; within:
+ * beyond it nothing is wanted, and cuts may be coarse; n: segments of a full circle
  * in a scene of this size; smaller shapes get fewer, to the part 'least'.
  * flush: what lies in a plane of the term's boundary and faces the same way is inside, else outside; that, too, decides which of two
  * equal faces stays. turned: the term stands for its complement, for recursion; false. */
 struct pov_cutter {
-	struct box region;
+	struct box region, within;
 	int n;
 	double size, least;
 	bool flush, turned;

@@ -41,6 +41,7 @@ struct grid {
 	int count[3];
 	const struct pov_drawing *d; /* NULL: only the extent is wanted */
 	struct box extent;
+	size_t blocks; /* marched through */
 };
 
 struct corner {
@@ -132,6 +133,7 @@ static void march_block(struct grid *g, const int *at)
 {
 	struct corner corner[SIDE][SIDE][SIDE];
 	int n[3];
+	g->blocks++;
 	for (int a = 0; a < 3; a++)
 		n[a] = g->count[a] - at[a] < BLOCK ? g->count[a] - at[a] : BLOCK;
 	for (int i = 0; i <= n[0]; i++)
@@ -174,12 +176,12 @@ static void visit(struct grid *g, const int *at, int size)
 	}
 }
 
-static struct box march(const struct pov_solid *s, const struct box *box, double step, const struct pov_drawing *d)
+static struct grid march(const struct pov_solid *s, const struct box *box, double step, const struct pov_drawing *d)
 {
 	struct grid g = { .s = s, .field = pov_shape_of(s)->field, .box = *box, .d = d, .extent = box_empty() };
 	int at[3] = { 0, 0, 0 }, size = BLOCK;
 	if (box_is_empty(box))
-		return g.extent;
+		return g;
 	for (int a = 0; a < 3; a++) {
 		double cells = ceil((box->hi.a[a] - box->lo.a[a]) / step - 1e-9);
 		g.count[a] = !(cells >= 1) ? 1 : cells > CELLS_MOST ? CELLS_MOST : (int)cells;
@@ -187,15 +189,17 @@ static struct box march(const struct pov_solid *s, const struct box *box, double
 			size *= 2;
 	}
 	visit(&g, at, size);
-	return g.extent;
+	return g;
 }
 
 struct box pov_march(const struct pov_solid *s, const struct box *box, double step, const struct pov_drawing *d)
 {
-	return march(s, box, step, d);
+	return march(s, box, step, d).extent;
 }
 
-struct box pov_march_extent(const struct pov_solid *s, const struct box *box, double step)
+struct box pov_march_extent(const struct pov_solid *s, const struct box *box, double step, size_t *blocks)
 {
-	return march(s, box, step, NULL);
+	struct grid g = march(s, box, step, NULL);
+	*blocks = g.blocks;
+	return g.extent;
 }

@@ -15,7 +15,7 @@ struct vec pov_root(double (*field)(const void *context, struct vec p), const vo
  * over. The surface is closed but where it leaves the box. Returns a box about the cells that the surface passes; empty if none does. */
 struct box pov_march(const struct pov_solid *s, const struct box *box, double step, const struct pov_drawing *d);
 
-/* That box alone. */
-struct box pov_march_extent(const struct pov_solid *s, const struct box *box, double step);
+/* That box alone. *blocks: of eight cells a side, were not proved empty. */
+struct box pov_march_extent(const struct pov_solid *s, const struct box *box, double step, size_t *blocks);
 
 #endif

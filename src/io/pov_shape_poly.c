@@ -2,7 +2,7 @@
 #include "io/pov_march.h"
 #include "io/pov_poly.h"
 
-enum { ORDER_MOST = 35, TIGHTENINGS = 4, SEARCHES = 4, FINER = 4, SEEN_CELLS = 30 };
+enum { ORDER_MOST = 35, TIGHTENINGS = 4, SEARCHES = 4, FINER = 4, SEEN_CELLS = 30, BLOCKS_MOST = 1 << 14 };
 
 /* Cells across the box: along its longest side at least and at most, along its shortest at least. */
 enum { QUADRIC_CELLS = 32, POLY_CELLS = 60, ACROSS = 12, CELLS_MOST = 240 };
@@ -172,14 +172,16 @@ static double find_step(const struct pov_solid *s, const struct box *b, int n)
 	return fmax(step * 32 / n, most / CELLS_MOST);
 }
 
-/* Where the surface is; one that is small in the box is looked for with finer grids, until it is many cells wide. */
+/* Where the surface is; one that is small in the box is looked for with finer grids, until it is many cells wide, or so many blocks are
+ * in doubt that they are no small part of the box. */
 static struct box find_surface(const struct pov_solid *s, const struct box *b, double *step)
 {
 	struct box found = box_empty();
-	for (int i = 0; i < SEARCHES && (box_is_empty(&found) || box_longest(&found) < SEEN_CELLS * *step); i++) {
+	size_t blocks = 0;
+	for (int i = 0; i < SEARCHES && blocks <= BLOCKS_MOST && (box_is_empty(&found) || box_longest(&found) < SEEN_CELLS * *step); i++) {
 		*step /= i ? FINER : 1;
 		struct box seen = box_enlarge(b, *step);
-		found = pov_march_extent(s, &seen, *step);
+		found = pov_march_extent(s, &seen, *step, &blocks);
 	}
 	return found;
 }

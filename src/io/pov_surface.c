@@ -149,7 +149,7 @@ static void turn_facets(struct pov_facets *f)
 static void keep(const struct pov_surface *s, struct pov_facets *f, const struct box *here, struct pov_term *by,
                  const struct pov_term *except, bool flush)
 {
-	struct pov_cutter cutter = { .region = box_common(here, &s->close), .n = s->n, .size = s->size, .least = s->least, .flush = flush };
+	struct pov_cutter cutter = { .region = box_common(here, &s->close), .within = *here, .n = s->n, .size = s->size, .least = s->least, .flush = flush };
 	struct pov_facets kept = open_facets(f);
 	pov_cut(&cutter, f, by, except, &kept, NULL);
 	pov_facets_free(f);
