@@ -46,6 +46,7 @@ static const struct variant variants[] = {
 	{ "bsp", { { "max_objects", 2 }, { "max_depth", 16 }, { "mailbox", MAILBOX_ONE } } },
 	{ "bsp", { { "max_objects", 5 }, { "max_depth", 18 }, { "traversal", 1 }, { "root", ROOT_CUBE } } },
 	{ "bsp", { { "max_objects", 5 }, { "max_depth", 15 }, { "empty_halves", 1 }, { "mailbox", MAILBOX_FULL } } },
+	{ "bsp", { { "max_objects", 1 }, { "max_depth", 12 }, { "touching", 1 }, { "root", ROOT_CUBE } } },
 	{ "grid", { { "resolution", 16 }, { "mailbox", MAILBOX_ONE } } },
 	{ "grid", { { "resolution", 5 }, { "resolution_y", 8 }, { "resolution_z", 13 }, { "root", ROOT_CUBE }, { "mailbox", MAILBOX_FULL } } },
 	{ "grid", { { "setting", GRID_WOO }, { "mailbox", MAILBOX_ONE } } },
@@ -289,6 +290,26 @@ static void boxes_are_for_the_recursion(void **state)
 
 /* A plane is only taken where it lowers the expected cost, so that every plane more lowers that of the tree: by the law the rule
  * believes in, lines for areas. A step as dear as all primitives is never worth taking. */
+/* Every level of Tetra fills half the cells of a step with a quarter of its triangles, and none reaches into two. */
+static void inner_lists_part_tetra(void **state)
+{
+	(void)state;
+	struct err e = { 0 };
+	struct primitives p = make_spd("tetra", 5, false);
+	for (int step = 2; step <= 4; step++) {
+		const struct variant v = { "bsp", { { "max_objects", 1 }, { "max_depth", 3 * step }, { "touching", 1 } } };
+		char what[160];
+		struct accel a = build_variant(&p, &v, what, sizeof what);
+		struct prediction q;
+		assert_int_equal(a.references, p.count);
+		assert_int_equal(a.ops->check(&a, &e), 0);
+		assert_int_equal(cost_predict(&q, &a, LAW_RAYS, 1, 1, &e), 0);
+		assert_true(fabs(q.tests - p.count / pow(4, step)) < 1e-9 * q.tests);
+		accel_free(&a);
+	}
+	primitives_free(&p);
+}
+
 static void planes_lower_the_cost(void **state)
 {
 	(void)state;
@@ -375,6 +396,7 @@ int main(void)
 		cmocka_unit_test(restart_and_recursion_visit_the_same_leaves),
 		cmocka_unit_test(grids_have_the_area_of_their_planes),
 		cmocka_unit_test(boxes_are_for_the_recursion),
+		cmocka_unit_test(inner_lists_part_tetra),
 		cmocka_unit_test(planes_lower_the_cost),
 		cmocka_unit_test(trees_do_not_depend_on_threads),
 		{ "agrees with list: tetra", agrees_with_list, NULL, NULL, &shot[0] },

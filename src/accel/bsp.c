@@ -5,18 +5,21 @@
 #include "accel/planes.h"
 
 enum { HALVES_KEEP, HALVES_CUT };
+enum { TOUCHING_KEEP, TOUCHING_DROP };
 
 struct bsp_options {
 	struct plane_options common;
-	int empty;
+	int empty, touching;
 };
 
-static const char *const empty_words[] = { "keep", "cut", NULL };
+static const char *const empty_words[] = { "keep", "cut", NULL }, *const touching_words[] = { "keep", "drop", NULL };
 static const struct key keys[] = {
 	PLANE_MAX_OBJECTS(struct bsp_options, common),
 	PLANE_KEYS(struct bsp_options, common, 24),
 	{ "empty_halves", KEY_WORD, offsetof(struct bsp_options, empty), 0, 0, HALVES_KEEP, empty_words,
 	  "what the remaining planes of a step do to a half that lists nothing: keep: an octree's step may end early" },
+	{ "touching", KEY_WORD, offsetof(struct bsp_options, touching), 0, 0, TOUCHING_KEEP, touching_words,
+	  "primitives that touch a cell and do not reach into it: keep: listed; drop: not, and a ray along the edge of a cell may miss them" },
 	{ 0 }
 };
 
@@ -48,6 +51,7 @@ static int build(struct accel *a, const void *opt, struct err *e)
 	const struct bsp_options *o = opt;
 	struct plane_options common = o->common;
 	common.boxes = 0; /* no option here */
+	common.inner_lists = o->touching == TOUCHING_DROP;
 	return planes_build(a, o, &common, choose, e);
 }
 

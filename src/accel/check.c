@@ -6,13 +6,25 @@ struct checking {
 	uint64_t leaves, nodes;
 };
 
+/* Whether a cell must list a primitive. */
+static bool belongs(const struct accel *a, const struct primitive *p, const struct box *cell)
+{
+	struct box inner = *cell, own = primitive_bounds(p);
+	for (int i = 0; i < 3 && a->inner_lists; i++)
+		if (own.lo.a[i] < own.hi.a[i]) {
+			inner.lo.a[i] += 2 * a->slack;
+			inner.hi.a[i] -= 2 * a->slack;
+		}
+	return primitive_touches(p, &inner);
+}
+
 static int check_list(struct checking *k, const struct cell *c, const struct box *wide)
 {
 	const struct primitives *p = k->accel->primitives;
 	uint32_t found = 0;
 	for (uint32_t id = 0; id < p->count; id++) {
 		bool listed = found < c->count && c->ids[found] == id;
-		if (listed ? !primitive_touches(&p->all[id], wide) : primitive_touches(&p->all[id], &c->bounds))
+		if (listed ? !primitive_touches(&p->all[id], wide) : belongs(k->accel, &p->all[id], &c->bounds))
 			return err_at(k->err, STATUS_ENVIRONMENT, NULL, 0, "primitive %u is %s", id, listed ? "listed in vain" : "missing in a list");
 		found += listed;
 	}

@@ -22,6 +22,7 @@ enum { PLANES_LEVELS = 60, PLANES_DEPTH = 2 * PLANES_LEVELS + 1 };
 struct plane_options {
 	int64_t max_objects, max_depth;
 	int root, travel, mailbox, stop;
+	bool inner_lists; /* as in struct accel */
 	double boxes;
 };
 

@@ -126,35 +126,43 @@ static int add_box(struct plane_builder *b, struct task *t, struct err *e)
 	return 0;
 }
 
+/* How far beyond a side of a cell a primitive is still listed: inner lists want it to reach in, but along an axis across which it is
+ * flat, where it may lie in the side. */
+static double find_reach(const struct plane_builder *b, uint32_t id, int axis)
+{
+	const struct box *s = &b->bounds[id];
+	return b->tree.options.inner_lists && s->lo.a[axis] < s->hi.a[axis] ? -b->slack : b->slack;
+}
+
 static bool touches(const struct plane_builder *b, uint32_t id, const struct box *half)
 {
 	const struct primitive *p = &b->accel->primitives->all[id];
-	return p->kind == PRIMITIVE_TRIANGLE ? triangle_touches_inner(&p->triangle, half) : primitive_touches(p, half);
-}
-
-static struct box widen(struct box b, double slack)
-{
-	const struct vec by = vec(slack, slack, slack);
-	return (struct box){ vec_sub(b.lo, by), vec_add(b.hi, by) };
+	struct box wide = *half;
+	for (int i = 0; i < 3; i++) {
+		double reach = find_reach(b, id, i);
+		wide.lo.a[i] -= reach;
+		wide.hi.a[i] += reach;
+	}
+	return p->kind == PRIMITIVE_TRIANGLE ? triangle_touches_inner(&p->triangle, &wide) : primitive_touches(p, &wide);
 }
 
 /* Share the task's list out between its halves: what lies clear of the plane by its bounding box, the rest by its surface. The lists
  * follow each other behind the stack; nothing is popped. */
 static int share_out(struct plane_builder *b, const struct task *t, int axis, struct task *half, struct err *e)
 {
-	struct box wide[2] = { widen(half[0].bounds, b->slack), widen(half[1].bounds, b->slack) };
-	double low = half[1].bounds.lo.a[axis] - b->slack, high = half[0].bounds.hi.a[axis] + b->slack;
+	double plane = half[0].bounds.hi.a[axis];
 	if (reserve_ids(b, 2 * (size_t)t->count, e) != 0)
 		return -1;
 	const uint32_t *from = b->ids + t->first;
 	uint32_t *lower = b->ids + b->id_count, *upper = lower + t->count, n = 0, m = 0;
 	for (uint32_t i = 0; i < t->count; i++) {
 		const struct box *s = &b->bounds[from[i]];
-		bool below = s->hi.a[axis] < low, above = s->lo.a[axis] > high;
+		double reach = find_reach(b, from[i], axis);
+		bool below = s->hi.a[axis] < plane - reach, above = s->lo.a[axis] > plane + reach;
 		lower[n] = from[i];
-		n += below || (!above && touches(b, from[i], &wide[0]));
+		n += below || (!above && touches(b, from[i], &half[0].bounds));
 		upper[m] = from[i];
-		m += above || (!below && touches(b, from[i], &wide[1]));
+		m += above || (!below && touches(b, from[i], &half[1].bounds));
 	}
 	memmove(lower + n, upper, m * sizeof *upper);
 	half[0].first = b->id_count;
@@ -320,6 +328,7 @@ int planes_build(struct accel *a, const void *options, const struct plane_option
 	a->root = root_box(&p->bounds, (enum root_kind)common->root);
 	a->slack = 1e-9 * box_diagonal(&a->root);
 	a->plane_tests = true;
+	a->inner_lists = common->inner_lists;
 	a->travel = TRAVEL_RECURSIVE + (enum travel)common->travel;
 	a->mailbox = (enum mailbox_kind)common->mailbox;
 	size = vec_sub(a->root.hi, a->root.lo);

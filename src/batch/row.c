@@ -42,6 +42,7 @@ const struct column row_columns[] = {
 	OPTION(split, "kd: how planes are chosen"),
 	OPTION(empty_cutoff, "kd: a plane that cuts off an empty part of this share of the cell goes before others"),
 	OPTION(boxes, "kd: a cell whose primitives' bounding box has less than this share of its area holds that box"),
+	OPTION(touching, "bsp: what becomes of primitives that touch a cell and do not reach into it"),
 	OPTION(empty_halves, "bsp: what the remaining planes of an octree's step do to a half that lists nothing"),
 	OPTION(setting, "grid: how the cells along each axis are chosen"),
 	OPTION(resolution, "grid: cells along x"),

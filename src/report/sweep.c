@@ -24,21 +24,43 @@ double sweep_height(const struct sweep *s, size_t row)
 	return table_number(s->table, row, "max_depth") / (s->method == SWEEP_OCTREE ? 3 : 1);
 }
 
-struct sweep_best sweep_least(const struct sweep *s, const char *column)
+/* What a row is compared by: a column, or its time. */
+static double value_of(const struct sweep *s, size_t row, const char *column, const struct table *times)
+{
+	double seconds = NAN;
+	if (!times)
+		return table_number(s->table, row, column);
+	for (size_t i = 0; i < times->rows; i++)
+		if (table_is(times, i, "key", table_text(s->table, row, "key")))
+			seconds = table_number(times, i, "seconds_shoot");
+	return seconds;
+}
+
+static struct sweep_best find_least(const struct sweep *s, const char *column, const struct table *times, double level)
 {
 	struct sweep_best b = { .row = s->table->rows, .height = NAN, .value = INFINITY, .low = INFINITY, .high = -INFINITY };
 	for (size_t i = 0; i < s->table->rows; i++)
-		if (sweep_holds(s, i) && table_number(s->table, i, column) < b.value) {
+		if (sweep_holds(s, i) && value_of(s, i, column, times) < b.value) {
 			b.row = i;
-			b.value = table_number(s->table, i, column);
+			b.value = value_of(s, i, column, times);
 			b.height = sweep_height(s, i);
 		}
 	for (size_t i = 0; i < s->table->rows; i++)
-		if (sweep_holds(s, i) && table_number(s->table, i, column) <= 1.02 * b.value) {
+		if (sweep_holds(s, i) && value_of(s, i, column, times) <= level * b.value) {
 			b.low = fmin(b.low, sweep_height(s, i));
 			b.high = fmax(b.high, sweep_height(s, i));
 		}
 	return b;
+}
+
+struct sweep_best sweep_least(const struct sweep *s, const char *column)
+{
+	return find_least(s, column, NULL, 1.02);
+}
+
+struct sweep_best sweep_fastest(const struct sweep *s, const struct table *times)
+{
+	return find_least(s, NULL, times, 1.1);
 }
 
 double sweep_at(const struct sweep *s, double height, const char *column)
