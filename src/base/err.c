@@ -3,6 +3,13 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+void err_flatten(char *text)
+{
+	for (; *text; text++)
+		if ((unsigned char)*text < ' ' || *text == 127)
+			*text = ' ';
+}
+
 int err_at(struct err *e, int code, const char *file, long line, const char *fmt, ...)
 {
 	if (e->code)

@@ -23,6 +23,9 @@ struct err {
 __attribute__((format(printf, 5, 6)))
 int err_at(struct err *e, int code, const char *file, long line, const char *fmt, ...);
 
+/* Make one line of a text that quotes what may have several: its control characters become spaces. */
+void err_flatten(char *text);
+
 /* The one message for memory that cannot be had: "out of memory (WHAT)", STATUS_ENVIRONMENT. Returns -1. */
 int err_memory(struct err *e, const char *what);
 

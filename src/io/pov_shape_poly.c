@@ -2,7 +2,7 @@
 #include "io/pov_march.h"
 #include "io/pov_poly.h"
 
-enum { ORDER_MOST = 35, TIGHTENINGS = 4, SEARCHES = 4, FINER = 4, SEEN_CELLS = 30, BLOCKS_MOST = 1 << 14 };
+enum { ORDER_MOST = 35, TIGHTENINGS = 4, SEARCHES = 4, FINER = 4, SEEN_CELLS = 30, BLOCKS_A_SEGMENT = 256 };
 
 /* Cells across the box: along its longest side at least and at most, along its shortest at least. */
 enum { QUADRIC_CELLS = 32, POLY_CELLS = 60, ACROSS = 12, CELLS_MOST = 240 };
@@ -173,12 +173,12 @@ static double find_step(const struct pov_solid *s, const struct box *b, int n)
 }
 
 /* Where the surface is; one that is small in the box is looked for with finer grids, until it is many cells wide, or so many blocks are
- * in doubt that they are no small part of the box. */
-static struct box find_surface(const struct pov_solid *s, const struct box *b, double *step)
+ * in doubt, for the resolution n, that they are no small part of the box. */
+static struct box find_surface(const struct pov_solid *s, const struct box *b, int n, double *step)
 {
 	struct box found = box_empty();
-	size_t blocks = 0;
-	for (int i = 0; i < SEARCHES && blocks <= BLOCKS_MOST && (box_is_empty(&found) || box_longest(&found) < SEEN_CELLS * *step); i++) {
+	size_t blocks = 0, most = (size_t)n * BLOCKS_A_SEGMENT;
+	for (int i = 0; i < SEARCHES && blocks <= most && (box_is_empty(&found) || box_longest(&found) < SEEN_CELLS * *step); i++) {
 		*step /= i ? FINER : 1;
 		struct box seen = box_enlarge(b, *step);
 		found = pov_march_extent(s, &seen, *step, &blocks);
@@ -192,7 +192,7 @@ static void mesh_poly(const struct pov_solid *s, const struct pov_drawing *d)
 	struct box own = pov_shape_of(s)->bounds(s), box = box_common(&own, &d->region);
 	for (int i = 0; i < TIGHTENINGS && !box_is_empty(&box); i++) {
 		double step = find_step(s, &box, d->n);
-		struct box found = find_surface(s, &box, &step), wide = box_enlarge(&found, step), seen = box_enlarge(&box, step);
+		struct box found = find_surface(s, &box, d->n, &step), wide = box_enlarge(&found, step), seen = box_enlarge(&box, step);
 		if (box_is_empty(&found))
 			return;
 		found = box_common(&wide, &seen);

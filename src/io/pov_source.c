@@ -25,6 +25,7 @@ static void report(struct pov *p, int code, const char *message)
 		if (p->source - s == 3)
 			break;
 	}
+	err_flatten(text);
 	err_at(p->err, code, at ? at->name : NULL, p->seen ? (long)p->seen->line : 0, "%s", text);
 	p->failed = true;
 	p->source = p->sources;
@@ -71,6 +72,7 @@ void pov_note(struct pov *p, const char *fmt, ...)
 	va_start(args, fmt);
 	vsnprintf(reason + n, size - (size_t)n, fmt, args);
 	va_end(args);
+	err_flatten(reason);
 }
 
 const char *pov_token_text(const struct pov *p, const struct pov_token *t, char *out, size_t size)

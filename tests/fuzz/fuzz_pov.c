@@ -64,7 +64,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n)
 		fuzz_scene(&s);
 	} else {
 		MUST(e.code == STATUS_INPUT || e.code == STATUS_ENVIRONMENT);
-		MUST(*e.text);
+		MUST(*e.text && !strchr(e.text, '\n'));
 	}
 	text_free(&line);
 	scene_free(&s);
