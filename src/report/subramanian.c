@@ -192,20 +192,23 @@ static struct verdict judge(const struct table *t, const struct table *times, en
 
 static void print_verdicts(struct text *out, const struct table *t, const struct table *times)
 {
-	static const char *const heads[] = { "method", "rays", "who chooses", "sweeps", "within one level", "and of the fastest", "costs more than the best, at most, %", NULL };
+	static const char *const heads[] = { "method", "rays", "who chooses", "sweeps", "within one level", "and of the fastest",
+		                             "costs more than the best, at most, %", NULL };
 	static const struct { const char *column, *name; } choosers[] = {
 		{ "model_cost", "model" }, { "model_cost_truncated", "model, truncated mean" }, { "flops_exact", "exact" }, { "flops_replay", "pilot" } };
 	open_table(out, "Who ends subdivision best",
-	           "A level is a plane above a leaf, a level of the octree, a doubling of the grid; it counts from the heights within 2 % of the best, or within 10 % of the "
-	           "least time. (The paper's own fits put the least flops of its BSP trees at h = 13.1 for Tetra and 25.5 for Balls, where it gives 9-12 and "
-	           "20-23 as best: its best heights must be those of the clock.)",
+	           "A level is a plane above a leaf, a level of the octree, a doubling of the grid; it counts from the heights within 2 % of the best, "
+	           "or within 10 % of the least time. (The paper's own fits put the least flops of its "
+	           "BSP trees at h = 13.1 for Tetra and 25.5 for Balls, where it gives 9-12 and 20-23 as best: its best heights must be those of "
+	           "the clock.)",
 	           heads);
 	for (int m = 0; m < SWEEP_METHODS; m++)
 		for (int random = 0; random < 2; random++)
 			for (size_t k = 0; k < sizeof choosers / sizeof *choosers; k++) {
 				struct verdict v = judge(t, times, (enum sweep_method)m, random, choosers[k].column);
 				if (v.sweeps)
-					text_print(out, "<tr><td>%s</td><td>%s</td><td>%s</td><td class=\"n\">%zu</td><td class=\"n\">%zu</td><td class=\"n\">%zu</td><td class=\"n\">%.1f</td></tr>\n",
+					text_print(out, "<tr><td>%s</td><td>%s</td><td>%s</td><td class=\"n\">%zu</td><td class=\"n\">%zu</td>"
+					           "<td class=\"n\">%zu</td><td class=\"n\">%.1f</td></tr>\n",
 					           methods[m].name, random ? "random" : "image", choosers[k].name, v.sweeps, v.near, v.near_fastest, v.worst);
 			}
 	close_table(out);
