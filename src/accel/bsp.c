@@ -51,7 +51,7 @@ static int build(struct accel *a, const void *opt, struct err *e)
 	const struct bsp_options *o = opt;
 	struct plane_options common = o->common;
 	common.boxes = 0; /* no option here */
-	common.inner_lists = o->touching == TOUCHING_DROP;
+	a->inner_lists = o->touching == TOUCHING_DROP;
 	return planes_build(a, o, &common, choose, e);
 }
 

@@ -22,7 +22,6 @@ enum { PLANES_LEVELS = 60, PLANES_DEPTH = 2 * PLANES_LEVELS + 1 };
 struct plane_options {
 	int64_t max_objects, max_depth;
 	int root, travel, mailbox, stop;
-	bool inner_lists; /* as in struct accel */
 	double boxes;
 };
 
@@ -92,9 +91,9 @@ struct plane_builder {
 	struct plane_parts *parts; /* where small cells wait for their turn; NULL: they are built at once */
 };
 
-/* Build the tree of a->primitives into a->impl. options: of the structure, for its rule; common: those of them that all trees have.
- * Parts of it are built on up to a->threads threads; the tree does not depend on how many. 0, or -1 and *e: memory, more than 2^32
- * nodes or references. */
+/* Build the tree of a->primitives into a->impl, with inner lists where *a asks for them already. options: of the structure, for its rule;
+ * common: those of them that all trees have. Parts of it are built on up to a->threads threads; the tree does not depend on how many.
+ * 0, or -1 and *e: memory, more than 2^32 nodes or references. */
 int planes_build(struct accel *a, const void *options, const struct plane_options *common, plane_rule *rule, struct err *e);
 
 /* The rest of what the door asks for. */

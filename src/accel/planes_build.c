@@ -131,7 +131,7 @@ static int add_box(struct plane_builder *b, struct task *t, struct err *e)
 static double find_reach(const struct plane_builder *b, uint32_t id, int axis)
 {
 	const struct box *s = &b->bounds[id];
-	return b->tree.options.inner_lists && s->lo.a[axis] < s->hi.a[axis] ? -b->slack : b->slack;
+	return b->accel->inner_lists && s->lo.a[axis] < s->hi.a[axis] ? -b->slack : b->slack;
 }
 
 static bool touches(const struct plane_builder *b, uint32_t id, const struct box *half)
@@ -328,7 +328,6 @@ int planes_build(struct accel *a, const void *options, const struct plane_option
 	a->root = root_box(&p->bounds, (enum root_kind)common->root);
 	a->slack = 1e-9 * box_diagonal(&a->root);
 	a->plane_tests = true;
-	a->inner_lists = common->inner_lists;
 	a->travel = TRAVEL_RECURSIVE + (enum travel)common->travel;
 	a->mailbox = (enum mailbox_kind)common->mailbox;
 	size = vec_sub(a->root.hi, a->root.lo);
