@@ -1,4 +1,5 @@
-/* What tests of structures share: predicted against measured, the list as an oracle, and a scene whose faces lie in cell planes. */
+/* What tests of structures share: structures with options, predicted against measured, the list as an oracle, and a scene whose faces
+ * lie in cell planes. */
 #ifndef TESTS_STRUCTURE_H
 #define TESTS_STRUCTURE_H
 
@@ -7,6 +8,32 @@
 #include "base/par.h"
 #include "cost/cost.h"
 #include "trace/rays.h"
+
+/* A structure with options as a job would write them. */
+struct variant {
+	const char *structure;
+	struct { const char *key; double value; } set[5];
+};
+
+static inline struct accel build_variant(const struct primitives *p, const struct variant *v, char *what, size_t size)
+{
+	struct err e = { 0 };
+	struct accel a;
+	const struct accel_ops *ops = accel_find(v->structure);
+	_Alignas(16) unsigned char options[ACCEL_OPT_MOST];
+	key_defaults(ops->keys, options);
+	size_t n = (size_t)snprintf(what, size, "%s", v->structure);
+	for (size_t i = 0; i < sizeof v->set / sizeof *v->set && v->set[i].key; i++) {
+		struct key k = *key_find(ops->keys, v->set[i].key);
+		k.value = v->set[i].value;
+		const struct key one[2] = { k, { 0 } };
+		key_defaults(one, options);
+		n += (size_t)snprintf(what + n, size - n, " %s=%g", k.name, k.value);
+	}
+	if (accel_build(&a, ops, options, p, &e) != 0)
+		fail_msg("%s: %s", what, e.text);
+	return a;
+}
 
 /* Nothing measured is ever more than four standard errors away; counts that do not vary must agree to rounding. */
 static inline void compare(const char *what, struct mean actual, double predicted)

@@ -22,7 +22,7 @@
  *   1 a hit is accepted in the leaf where t <= t_exit + slack; one further out is ignored there and found again later
  *   2 the start leaf is found by point and direction: a start within slack of a cell plane belongs to the cell ahead; one that
  *     leads out of the root visits nothing
- *   3 lists hold every primitive within slack of the closed cell (without those that only touch it, where 'inner_lists' says so)
+ *   3 lists hold every primitive within slack of the closed cell ('inner_lists': those that reach into it)
  *   4 a hit at |t| <= slack counts only for an id higher than the start primitive's (geom/ray.h) */
 #ifndef ACCEL_ACCEL_H
 #define ACCEL_ACCEL_H
@@ -110,7 +110,7 @@ struct accel {
 	double slack;                        /* 1e-9 of the root's diagonal */
 	bool volumes;                        /* a bounding volume hierarchy */
 	bool plane_tests;                    /* 'barycentric' is counted */
-	bool inner_lists;                    /* a primitive that reaches into a cell by less than slack is not listed, unless it is that flat */
+	bool inner_lists;                    /* what only touches a cell is not listed (accel_wants_inside) */
 	int threads;                         /* that build may use; the structure does not depend on it */
 	void *impl;                          /* the structure's own nodes, inside mem */
 	struct arena mem;                    /* owned */
@@ -133,6 +133,13 @@ int accel_build_on(struct accel *a, const struct accel_ops *ops, const void *opt
                    struct err *e);
 
 void accel_free(struct accel *a);
+
+/* Whether a primitive of these bounds is listed only where it reaches into a cell along the axis: inner lists want that of all but what is
+ * flat across the axis, which may lie in a side of the cell. */
+static inline bool accel_wants_inside(const struct accel *a, const struct box *own, int axis)
+{
+	return a->inner_lists && own->lo.a[axis] < own->hi.a[axis];
+}
 
 /* What alpha weighs in the cost of a ray. */
 static inline uint64_t accel_steps(const struct accel *a, const struct tally *n)

@@ -10,8 +10,8 @@ struct checking {
 static bool belongs(const struct accel *a, const struct primitive *p, const struct box *cell)
 {
 	struct box inner = *cell, own = primitive_bounds(p);
-	for (int i = 0; i < 3 && a->inner_lists; i++)
-		if (own.lo.a[i] < own.hi.a[i]) {
+	for (int i = 0; i < 3; i++)
+		if (accel_wants_inside(a, &own, i)) {
 			inner.lo.a[i] += 2 * a->slack;
 			inner.hi.a[i] -= 2 * a->slack;
 		}

@@ -126,12 +126,10 @@ static int add_box(struct plane_builder *b, struct task *t, struct err *e)
 	return 0;
 }
 
-/* How far beyond a side of a cell a primitive is still listed: inner lists want it to reach in, but along an axis across which it is
- * flat, where it may lie in the side. */
+/* How far beyond a side of a cell a primitive is still listed. */
 static double find_reach(const struct plane_builder *b, uint32_t id, int axis)
 {
-	const struct box *s = &b->bounds[id];
-	return b->accel->inner_lists && s->lo.a[axis] < s->hi.a[axis] ? -b->slack : b->slack;
+	return accel_wants_inside(b->accel, &b->bounds[id], axis) ? -b->slack : b->slack;
 }
 
 static bool touches(const struct plane_builder *b, uint32_t id, const struct box *half)

@@ -210,10 +210,8 @@ static void cut_bent(const struct pov_cutter *c, struct pov_term *leaf, const st
 	struct corner corner[3];
 	if (slope > 0 && isfinite(slope))
 		b.flush = flush * slope * (box_longest(&leaf->extent) + vec_length(leaf->extent.lo)) * leaf->squeeze;
-	for (int i = 0; i < 3; i++) {
-		corner[i].p = f->v[i];
-		corner[i].f = bend_field(&b, f->v[i]);
-	}
+	for (int i = 0; i < 3; i++)
+		corner[i] = (struct corner){ f->v[i], bend_field(&b, f->v[i]) };
 	refine(&b, corner, 0);
 }
 
