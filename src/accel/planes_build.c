@@ -126,41 +126,53 @@ static int add_box(struct plane_builder *b, struct task *t, struct err *e)
 	return 0;
 }
 
-/* How far beyond a side of a cell a primitive is still listed. */
-static double find_reach(const struct plane_builder *b, uint32_t id, int axis)
+/* How much farther into a cell than to within slack of it a primitive must come to be listed. */
+static double find_depth(const struct plane_builder *b, const struct box *own, int axis)
 {
-	return accel_wants_inside(b->accel, &b->bounds[id], axis) ? -b->slack : b->slack;
+	return accel_wants_inside(b->accel, own, axis) ? 2 * b->slack : 0;
 }
 
+/* half: widened by slack. */
 static bool touches(const struct plane_builder *b, uint32_t id, const struct box *half)
 {
 	const struct primitive *p = &b->accel->primitives->all[id];
-	struct box wide = *half;
-	for (int i = 0; i < 3; i++) {
-		double reach = find_reach(b, id, i);
-		wide.lo.a[i] -= reach;
-		wide.hi.a[i] += reach;
+	struct box inner;
+	if (b->accel->inner_lists) {
+		inner = *half;
+		for (int i = 0; i < 3; i++) {
+			double depth = find_depth(b, &b->bounds[id], i);
+			inner.lo.a[i] += depth;
+			inner.hi.a[i] -= depth;
+		}
+		half = &inner;
 	}
-	return p->kind == PRIMITIVE_TRIANGLE ? triangle_touches_inner(&p->triangle, &wide) : primitive_touches(p, &wide);
+	return p->kind == PRIMITIVE_TRIANGLE ? triangle_touches_inner(&p->triangle, half) : primitive_touches(p, half);
+}
+
+static struct box widen(struct box b, double slack)
+{
+	const struct vec by = vec(slack, slack, slack);
+	return (struct box){ vec_sub(b.lo, by), vec_add(b.hi, by) };
 }
 
 /* Share the task's list out between its halves: what lies clear of the plane by its bounding box, the rest by its surface. The lists
  * follow each other behind the stack; nothing is popped. */
 static int share_out(struct plane_builder *b, const struct task *t, int axis, struct task *half, struct err *e)
 {
-	double plane = half[0].bounds.hi.a[axis];
+	const struct box wide[2] = { widen(half[0].bounds, b->slack), widen(half[1].bounds, b->slack) };
+	const double low = wide[1].lo.a[axis], high = wide[0].hi.a[axis];
 	if (reserve_ids(b, 2 * (size_t)t->count, e) != 0)
 		return -1;
 	const uint32_t *from = b->ids + t->first;
 	uint32_t *lower = b->ids + b->id_count, *upper = lower + t->count, n = 0, m = 0;
 	for (uint32_t i = 0; i < t->count; i++) {
 		const struct box *s = &b->bounds[from[i]];
-		double reach = find_reach(b, from[i], axis);
-		bool below = s->hi.a[axis] < plane - reach, above = s->lo.a[axis] > plane + reach;
+		double depth = find_depth(b, s, axis);
+		bool below = s->hi.a[axis] < low + depth, above = s->lo.a[axis] > high - depth;
 		lower[n] = from[i];
-		n += below || (!above && touches(b, from[i], &half[0].bounds));
+		n += below || (!above && touches(b, from[i], &wide[0]));
 		upper[m] = from[i];
-		m += above || (!below && touches(b, from[i], &half[1].bounds));
+		m += above || (!below && touches(b, from[i], &wide[1]));
 	}
 	memmove(lower + n, upper, m * sizeof *upper);
 	half[0].first = b->id_count;
