@@ -75,14 +75,20 @@ int bvh8_lay_out(struct accel *a, struct bvh8 *b, const struct bvh_draft *d, con
 /* An order of rays in which neighbours meet much the same, as ray numbers; free() it. NULL: as they are. */
 uint32_t *bvh8_order(const struct accel *a, const struct ray *r, size_t count);
 
+/* Where a reference leads; of a leaf's, somewhere in its first 64 bytes. */
+static inline const char *bvh8_at(const struct bvh8 *b, uint32_t ref)
+{
+	return b->units + (size_t)ref * (BVH8_UNIT / 16);
+}
+
 static inline const struct bvh8_node *bvh8_node(const struct bvh8 *b, uint32_t ref)
 {
-	return (const void *)(b->units + (size_t)(ref >> 4) * BVH8_UNIT);
+	return (const void *)bvh8_at(b, ref);
 }
 
 static inline const struct bvh8_block *bvh8_leaf(const struct bvh8 *b, uint32_t ref)
 {
-	return (const void *)(b->units + (size_t)(ref >> 4) * BVH8_UNIT);
+	return (const void *)bvh8_at(b, ref & ~15u);
 }
 
 #endif

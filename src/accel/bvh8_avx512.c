@@ -1,19 +1,11 @@
 /* bvh8 by AVX-512 on vectors of 256 bits, whose comparisons give masks. */
 #ifdef __x86_64__
-#include "accel/quad.h"
+#include "accel/bvh8_wide.h"
 
-#include <immintrin.h>
-
-#define WIDE __m256
-#define wide_load(p) _mm256_load_ps((const float *)(const void *)(p))
-#define wide_spread(x) _mm256_set1_ps(x)
-#define wide_min(a, b) _mm256_min_ps(a, b)
-#define wide_max(a, b) _mm256_max_ps(a, b)
-#define wide_mul_sub(a, b, c) _mm256_fmsub_ps(a, b, c)
-#define wide_mask(a, b) ((uint32_t)_mm256_cmp_ps_mask(a, b, _CMP_LE_OQ))
-#define quad_mul_add(a, b, c) ((quad)_mm_fmadd_ps((__m128)(a), (__m128)(b), (__m128)(c)))
-#define quad_mul_sub(a, b, c) ((quad)_mm_fmsub_ps((__m128)(a), (__m128)(b), (__m128)(c)))
-#define quad_mask(m) ((uint32_t)_mm_movemask_ps((__m128)(m)))
+static inline uint32_t wide_mask(__m256 a, __m256 b)
+{
+	return _mm256_cmple_epi32_mask(_mm256_castps_si256(a), _mm256_castps_si256(b));
+}
 
 #define BVH8_KERNEL bvh8_avx512
 #include "accel/bvh8_walk.inc"
