@@ -31,13 +31,14 @@ struct bvh8_node {
 	uint32_t children, unused[7];
 };
 
-/* Triangles: a corner and the two edges from it. margin: how far off the float test may be, per unit of reach; INFINITY where there
- * are spheres. edge: the longest. Lanes from 'count' on repeat the last. */
+/* Triangles: a corner and the two edges from it. margin: how far off the products of the float test may be, per unit of reach;
+ * margin_t: the same of its t, and of that by which its t is divided; both INFINITY where there are spheres. Lanes from 'count' on
+ * repeat the last. */
 struct bvh8_block {
 	_Alignas(BVH8_UNIT) float corner[3][BVH8_LANES];
 	float edge1[3][BVH8_LANES], edge2[3][BVH8_LANES];
 	uint32_t id[BVH8_LANES];
-	float margin, edge;
+	float margin, margin_t;
 	uint32_t count, unused;
 };
 

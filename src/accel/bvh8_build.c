@@ -133,8 +133,9 @@ static void fill_block(const struct layout *l, struct bvh8_block *b, const union
 		b->id[i] = id;
 		longest = fmax(longest, fill_lane(b, (int)i, &l->draft->primitives->all[id], &l->draft->frame));
 	}
-	b->edge = (float)sqrt(longest) * (1 + 0x1p-20f);
-	b->margin = b->edge * BVH8_MARGIN;
+	float edge = (float)sqrt(longest) * (1 + 0x1p-20f);
+	b->margin = edge * BVH8_MARGIN;
+	b->margin_t = b->margin * edge;
 }
 
 static void fill_leaves(void *ctx, size_t chunk)
