@@ -5,6 +5,7 @@
 #include "accel/bvh.h"
 #include "accel/bvh8.h"
 #include "accel/root.h"
+#include "base/rng.h"
 #include "trace/replay.h"
 
 #include <string.h>
@@ -335,6 +336,36 @@ static void rays_out_of_the_root_hit_nothing(void **state)
 	primitives_free(&p);
 }
 
+/* A solid box among specks that fill far larger boxes: rays towards it that any hit ends go straight there. */
+static void any_hit_is_sought_where_it_is_likely(void **state)
+{
+	(void)state;
+	enum { SPECKS = 10, RAYS = 2000 };
+	struct scene s = { 0 };
+	for (int i = 0; i < SPECKS * SPECKS * SPECKS; i++) {
+		struct vec at = vec(i % SPECKS, i / SPECKS % SPECKS, i / SPECKS / SPECKS);
+		add_box(&s, at, vec_add(at, vec(0.05, 0.05, 0.05)));
+	}
+	add_box(&s, vec(4.2, 4.2, 4.2), vec(4.9, 4.9, 4.9));
+	struct primitives p = make_primitives(&s);
+	_Alignas(16) unsigned char o[ACCEL_OPT_MOST];
+	key_defaults(accel_find("bvh8")->keys, o);
+	struct accel a = build("bvh8", o, &p);
+	struct tally n = { 0 };
+	for (uint64_t i = 0; i < RAYS; i++) {
+		uint64_t key = rng_key(8, 1, i);
+		struct vec from = vec(9 * rng_uniform(key, 0), 9 * rng_uniform(key, 1), -1);
+		struct vec to = vec(4.2 + 0.7 * rng_uniform(key, 2), 4.2 + 0.7 * rng_uniform(key, 3), 4.5);
+		struct ray r = { .o = from, .d = vec_unit(vec_sub(to, from)), .t_max = INFINITY, .slack = a.slack, .from = NO_PRIMITIVE, .any = true };
+		struct hit h;
+		assert_true(a.ops->shoot_counted(&a, &r, &h, &n));
+	}
+	assert_int_equal(n.leaves, RAYS);
+	assert_true(n.inner_step <= RAYS * (uint64_t)a.depth);
+	accel_free(&a);
+	primitives_free(&p);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -345,6 +376,7 @@ int main(void)
 		cmocka_unit_test(threads_do_not_change_the_tree),
 		cmocka_unit_test(order_does_not_matter),
 		cmocka_unit_test(the_ladder_saves_work),
+		cmocka_unit_test(any_hit_is_sought_where_it_is_likely),
 		cmocka_unit_test(nodes_up_to_the_hit_are_predicted_exactly),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -73,6 +73,9 @@ enum bvh8_kernel_kind { BVH8_BEST, BVH8_AVX512, BVH8_AVX2, BVH8_PORTABLE };
 /* Collapse the draft into b. 0, or -1 and *e: memory, too large. */
 int bvh8_lay_out(struct accel *a, struct bvh8 *b, const struct bvh_draft *d, const struct bvh_rules *rules, struct err *e);
 
+/* Put the children of every node into the order in which a ray that any hit ends visits them best. */
+void bvh8_order_children(struct accel *a);
+
 /* An order of rays in which neighbours meet much the same, as ray numbers; free() it. NULL: as they are. */
 uint32_t *bvh8_order(const struct accel *a, const struct ray *r, size_t count);
 

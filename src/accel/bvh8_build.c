@@ -7,7 +7,7 @@
 _Static_assert(sizeof(struct bvh8_node) == 256, "four cache lines");
 _Static_assert(sizeof(struct bvh8_block) == 192, "three cache lines");
 
-enum { NODE_UNITS = sizeof(struct bvh8_node) / BVH8_UNIT, BLOCK_UNITS = sizeof(struct bvh8_block) / BVH8_UNIT, CHUNK = 1024 };
+enum { NODE_UNITS = sizeof(struct bvh8_node) / BVH8_UNIT, BLOCK_UNITS = sizeof(struct bvh8_block) / BVH8_UNIT, CHUNK = 1024, AHEAD = 4 };
 
 /* A leaf whose blocks are to be filled. */
 struct leaf {
@@ -67,19 +67,6 @@ static uint32_t place_leaf(struct layout *l, const struct bvh_draft_node *n)
 	return unit << 4 | blocks;
 }
 
-/* The largest first: rays that any hit ends take children in this order, and large ones are more likely to end them. */
-static void sort_children(const struct bvh_draft *d, uint32_t *child, int count)
-{
-	for (int i = 1; i < count; i++) {
-		uint32_t moved = child[i];
-		float area = quad_box_half_area(bvh_node_box(&d->nodes[moved]));
-		int k = i;
-		for (; k > 0 && quad_box_half_area(bvh_node_box(&d->nodes[child[k - 1]])) < area; k--)
-			child[k] = child[k - 1];
-		child[k] = moved;
-	}
-}
-
 /* Place a node, then its leaves, then what is below its other children. */
 static uint32_t place(struct layout *l, uint32_t node, int depth)
 {
@@ -91,7 +78,6 @@ static uint32_t place(struct layout *l, uint32_t node, int depth)
 	if (is_leaf(&d->nodes[node]))
 		return place_leaf(l, &d->nodes[node]);
 	int count = gather(d, node, child);
-	sort_children(d, child, count);
 	l->units += NODE_UNITS;
 	n->children = (uint32_t)count;
 	for (int i = 0; i < BVH8_WIDE; i++)
@@ -138,6 +124,16 @@ static void fill_block(const struct layout *l, struct bvh8_block *b, const union
 	b->margin_t = b->margin * edge;
 }
 
+/* Ask for the primitives of a leaf that is to be filled soon: they lie anywhere. */
+static void prefetch_leaf(const struct layout *l, const struct leaf *leaf)
+{
+	for (uint32_t i = 0; i < leaf->count; i++) {
+		const char *p = (const char *)&l->draft->primitives->all[l->draft->refs[leaf->first + i].id];
+		__builtin_prefetch(p);
+		__builtin_prefetch(p + sizeof(struct primitive) - 1);
+	}
+}
+
 static void fill_leaves(void *ctx, size_t chunk)
 {
 	const struct layout *l = ctx;
@@ -145,6 +141,8 @@ static void fill_leaves(void *ctx, size_t chunk)
 	for (size_t i = chunk * CHUNK; i < end; i++) {
 		const struct leaf *leaf = &l->leaves[i];
 		struct bvh8_block *b = (void *)(l->bvh->units + (size_t)leaf->unit * BVH8_UNIT);
+		if (i + AHEAD < end)
+			prefetch_leaf(l, leaf + AHEAD);
 		for (uint32_t k = 0; k < leaf->count; k += BVH8_LANES)
 			fill_block(l, b++, &l->draft->refs[leaf->first + k], leaf->count - k);
 	}
@@ -184,6 +182,7 @@ int bvh8_lay_out(struct accel *a, struct bvh8 *b, const struct bvh_draft *d, con
 		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "bvh8: the tree is deeper than %d; another builder makes a shallower one", (int)BVH_DEPTH);
 	}
 	par_for(rules->threads, (leaves + CHUNK - 1) / CHUNK, fill_leaves, &l);
+	bvh8_order_children(a);
 	a->leaves = leaves;
 	a->references = d->ref_count;
 	free(l.leaves);
