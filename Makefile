@@ -26,6 +26,11 @@ endif
 OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c)) $(WIDE)
 TESTS   := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
 FUZZ    := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
+# A race needs threads: what starts none is not hunted for any.
+ifeq ($(SAN),thread)
+TESTS   := $(patsubst %.c,$(BUILD)/%,$(shell grep -lE "par_processors|threads|tests/structure.h" tests/test_*.c))
+FUZZ    :=
+endif
 
 # What SIZE holds reaches the sweep as data: not expanded by make, not read by the shell.
 override SIZE := $(value SIZE)

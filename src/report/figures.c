@@ -142,7 +142,7 @@ static bool fill_sweep(struct plot *p, const struct table *t, enum sweep_method 
 	struct scatter s = { .x_label = method == SWEEP_ARTS ? "cells a side" : method == SWEEP_OCTREE ? "levels" : "planes above a leaf, at most",
 		             .y_label = "flops a ray", .log_x = method == SWEEP_ARTS, .log_y = true, .lines = true, .group = 3 };
 	for (size_t f = 0; f < sizeof families / sizeof *families; f++) {
-		const struct sweep sweep = { t, method, families[f], false };
+		const struct sweep sweep = { t, method, families[f], false, false };
 		for (size_t k = 0; k < sizeof curves / sizeof *curves; k++)
 			for (size_t i = 0; i < t->rows; i++) {
 				char name[100];

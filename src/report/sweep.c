@@ -10,7 +10,8 @@ bool sweep_holds(const struct sweep *s, size_t row)
 	    !table_is(t, row, "family", s->family) || !table_is(t, row, "workload", s->random ? "invariant" : "render"))
 		return false;
 	if (s->method == SWEEP_BSP || s->method == SWEEP_OCTREE)
-		if (!table_is(t, row, "empty_halves", s->method == SWEEP_BSP ? "keep" : "cut"))
+		if (!table_is(t, row, "empty_halves", s->method == SWEEP_BSP ? "keep" : "cut") ||
+		    !table_is(t, row, "traversal", s->restart ? "restart" : "recursive"))
 			return false;
 	if (s->method == SWEEP_ABV)
 		return true;

@@ -7,12 +7,13 @@
 /* The paper's structures; OCTREE is a BSP tree whose empty halves are cut too, ABV its automatic bounding volume hierarchy. */
 enum sweep_method { SWEEP_BSP, SWEEP_OCTREE, SWEEP_ARTS, SWEEP_KD, SWEEP_ABV, SWEEP_METHODS };
 
-/* One sweep: a method over the scenes of a family, with full mailboxes where it has any. random: rays of the invariant law, else images. */
+/* One sweep: a method over the scenes of a family, with full mailboxes where it has any. random: rays of the invariant law, else images.
+ * restart: of BSP trees and octrees, those in which every leaf is found from the root on, else those walked recursively. */
 struct sweep {
 	const struct table *table;
 	enum sweep_method method;
 	const char *family;
-	bool random;
+	bool random, restart;
 };
 
 bool sweep_holds(const struct sweep *s, size_t row);
