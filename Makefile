@@ -26,9 +26,10 @@ endif
 OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c)) $(WIDE)
 TESTS   := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
 FUZZ    := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
-# A race needs threads: what starts none is not hunted for any.
+# A race needs threads: tests that start none, and readers, are not hunted for any.
+SEQUENTIAL := aff formats geom interior mesh nff order pov_% scene spd spd_pov
 ifeq ($(SAN),thread)
-TESTS   := $(patsubst %.c,$(BUILD)/%,$(shell grep -lE "par_processors|threads|tests/structure.h" tests/test_*.c))
+TESTS   := $(filter-out $(SEQUENTIAL:%=$(BUILD)/tests/test_%),$(TESTS))
 FUZZ    :=
 endif
 

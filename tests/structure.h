@@ -9,13 +9,6 @@
 #include "cost/cost.h"
 #include "trace/rays.h"
 
-/* A race shows in one scene as well as in many: who looks for races is slow, and takes the first. */
-#ifdef __SANITIZE_THREAD__
-enum { RACES = 1 };
-#else
-enum { RACES = 0 };
-#endif
-
 /* A structure with options as a job would write them. */
 struct variant {
 	const char *structure;

@@ -35,7 +35,7 @@ struct family {
 static void rays_in_spd_scenes(void **state)
 {
 	const struct family *f = *state;
-	for (int size = 1; size <= (RACES ? 1 : 2); size++) {
+	for (int size = 1; size <= 2; size++) {
 		char scene[64];
 		snprintf(scene, sizeof scene, "%s-%d", f->name, size);
 		struct primitives p = make_spd(f->name, size, f->tessellate);

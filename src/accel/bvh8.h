@@ -33,13 +33,14 @@ struct bvh8_node {
 
 /* Triangles: a corner and the two edges from it. margin: how far off the products of the float test may be, per unit of reach;
  * margin_t: the same of its t, and of that by which its t is divided; both INFINITY where there are spheres. Lanes from 'count' on
- * repeat the last. */
+ * repeat the last. area: half the surface of the primitives, a triangle having two sides. */
 struct bvh8_block {
 	_Alignas(BVH8_UNIT) float corner[3][BVH8_LANES];
 	float edge1[3][BVH8_LANES], edge2[3][BVH8_LANES];
 	uint32_t id[BVH8_LANES];
 	float margin, margin_t;
-	uint32_t count, unused;
+	uint32_t count;
+	float area;
 };
 
 /* The walks of one instruction set. */
@@ -74,13 +75,13 @@ enum bvh8_kernel_kind { BVH8_BEST, BVH8_AVX512, BVH8_AVX2, BVH8_PORTABLE };
 int bvh8_lay_out(struct accel *a, struct bvh8 *b, const struct bvh_draft *d, const struct bvh_rules *rules, struct err *e);
 
 /* Put the children of every node into the order in which a ray that any hit ends visits them best. */
-void bvh8_order_children(struct accel *a);
+void bvh8_order_children(struct bvh8 *b);
 
 /* An order of rays in which neighbours meet much the same, as ray numbers; free() it. NULL: as they are. */
 uint32_t *bvh8_order(const struct accel *a, const struct ray *r, size_t count);
 
 /* Where a reference leads; of a leaf's, somewhere in its first 64 bytes. */
-static inline const char *bvh8_at(const struct bvh8 *b, uint32_t ref)
+static inline char *bvh8_at(const struct bvh8 *b, uint32_t ref)
 {
 	return b->units + (size_t)ref * (BVH8_UNIT / 16);
 }

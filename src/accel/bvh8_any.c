@@ -4,8 +4,6 @@
  * Manocha 2014 order by surface alone.) */
 #include "accel/bvh8.h"
 
-#include <string.h>
-
 /* What a block costs in steps from node to node. */
 #define BLOCK_STEPS 1.4f
 
@@ -17,41 +15,21 @@ struct prospect {
 struct child {
 	struct prospect prospect;
 	uint32_t ref;
-	float planes[6], chance; /* chance: of a hit, from the parent's point of view */
+	float planes[6], chance; /* chance: that a ray meets it that meets its parent */
 };
 
-/* Half the surface, and that of what is in a block. */
+/* Half the surface of a box. */
 static float area_of(const float planes[6])
 {
-	float x = planes[1] - planes[0], y = planes[3] - planes[2], z = planes[5] - planes[4];
-	return x * y + y * z + z * x;
+	return quad_box_half_area((struct quad_box){ { planes[0], planes[2], planes[4] }, { planes[1], planes[3], planes[5] } });
 }
 
-static float area_of_block(const struct accel *a, const struct bvh8_block *k)
+static struct prospect look_into_leaf(const struct bvh8 *b, uint32_t ref, float area)
 {
-	const struct bvh8 *b = a->impl;
-	float sum = 0;
-	for (uint32_t i = 0; i < k->count; i++) {
-		const struct primitive *p = &a->primitives->all[k->id[i]];
-		if (k->margin == INFINITY && p->kind == PRIMITIVE_SPHERE) {
-			float radius = (float)(p->sphere.radius * b->frame.scale);
-			sum += 6.2831853f * radius * radius;
-			continue;
-		}
-		float x = k->edge1[1][i] * k->edge2[2][i] - k->edge1[2][i] * k->edge2[1][i];
-		float y = k->edge1[2][i] * k->edge2[0][i] - k->edge1[0][i] * k->edge2[2][i];
-		float z = k->edge1[0][i] * k->edge2[1][i] - k->edge1[1][i] * k->edge2[0][i];
-		sum += sqrtf(x * x + y * y + z * z) / 2;
-	}
-	return sum;
-}
-
-static struct prospect look_into_leaf(const struct accel *a, uint32_t ref, float area)
-{
-	const struct bvh8_block *k = bvh8_leaf(a->impl, ref), *end = k + (ref & 15);
+	const struct bvh8_block *k = bvh8_leaf(b, ref), *end = k + (ref & 15);
 	struct prospect p = { 0, BLOCK_STEPS * (float)(ref & 15) };
 	for (; k < end; k++)
-		p.chance += area_of_block(a, k) / area;
+		p.chance += k->area / area;
 	p.chance = p.chance < 1 ? p.chance : 1;
 	return p;
 }
@@ -70,19 +48,19 @@ static void take_out(const struct bvh8_node *n, uint32_t i, struct child *c)
 		c->planes[plane] = n->planes[plane][i];
 }
 
-static struct prospect look_into(const struct accel *a, uint32_t ref, float area)
+/* Looks below a child, whose box has half the surface 'area', and puts every node there into order. */
+static struct prospect look_into(const struct bvh8 *b, uint32_t ref, float area)
 {
-	const struct bvh8 *b = a->impl;
 	struct child child[BVH8_WIDE], taken;
 	struct prospect sum = { 0, 1 };
 	float missed = 1;
 	if (ref & 15)
-		return look_into_leaf(a, ref, area);
-	struct bvh8_node *n = (void *)(b->units + (size_t)ref * (BVH8_UNIT / 16));
+		return look_into_leaf(b, ref, area);
+	struct bvh8_node *n = (void *)bvh8_at(b, ref);
 	for (uint32_t i = 0, k; i < n->children; i++) {
 		take_out(n, i, &taken);
 		float part = area_of(taken.planes);
-		taken.prospect = look_into(a, taken.ref, part);
+		taken.prospect = look_into(b, taken.ref, part);
 		taken.chance = part < area ? part / area : 1;
 		for (k = i; k > 0 && child[k - 1].prospect.chance * taken.prospect.steps < taken.prospect.chance * child[k - 1].prospect.steps; k--)
 			child[k] = child[k - 1];
@@ -97,8 +75,7 @@ static struct prospect look_into(const struct accel *a, uint32_t ref, float area
 	return sum;
 }
 
-void bvh8_order_children(struct accel *a)
+void bvh8_order_children(struct bvh8 *b)
 {
-	const struct bvh8 *b = a->impl;
-	look_into(a, b->root, 1);
+	look_into(b, b->root, 1);
 }

@@ -110,14 +110,23 @@ static double fill_lane(struct bvh8_block *b, int lane, const struct primitive *
 	return fmax(fmax(a, c), vec_dot(e3, e3));
 }
 
+/* Half the surface a ray may meet, in the frame. */
+static float half_surface(const struct primitive *p, const struct bvh_frame *f)
+{
+	return (float)(primitive_area(p) * f->scale * f->scale * (p->kind == PRIMITIVE_TRIANGLE ? 1 : 0.5));
+}
+
 static void fill_block(const struct layout *l, struct bvh8_block *b, const union bvh_ref *refs, uint32_t count)
 {
 	double longest = 0;
 	b->count = count < BVH8_LANES ? count : BVH8_LANES;
+	b->area = 0;
 	for (uint32_t i = 0; i < BVH8_LANES; i++) {
 		uint32_t id = refs[i < b->count ? i : b->count - 1].id;
+		const struct primitive *p = &l->draft->primitives->all[id];
 		b->id[i] = id;
-		longest = fmax(longest, fill_lane(b, (int)i, &l->draft->primitives->all[id], &l->draft->frame));
+		longest = fmax(longest, fill_lane(b, (int)i, p, &l->draft->frame));
+		b->area += i < b->count ? half_surface(p, &l->draft->frame) : 0;
 	}
 	float edge = (float)sqrt(longest) * (1 + 0x1p-20f);
 	b->margin = edge * BVH8_MARGIN;
@@ -182,7 +191,7 @@ int bvh8_lay_out(struct accel *a, struct bvh8 *b, const struct bvh_draft *d, con
 		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "bvh8: the tree is deeper than %d; another builder makes a shallower one", (int)BVH_DEPTH);
 	}
 	par_for(rules->threads, (leaves + CHUNK - 1) / CHUNK, fill_leaves, &l);
-	bvh8_order_children(a);
+	bvh8_order_children(b);
 	a->leaves = leaves;
 	a->references = d->ref_count;
 	free(l.leaves);
