@@ -42,20 +42,25 @@ static inline void assert_golden(const char *name, const char *text)
 }
 
 /* The primitives of an SPD family; close with primitives_free. */
-static inline struct primitives make_spd(const char *family, int size, bool tessellate)
+static inline struct primitives make_family(const char *family, const struct spd_options *o)
 {
 	struct err e = { 0 };
 	struct scene scene = { 0 };
 	struct primitives p = { 0 };
-	struct spd_options o;
-	key_defaults(spd_keys, &o);
-	o.size = size;
-	o.tessellate = tessellate;
-	if (spd_generate(&scene, spd_find(family), &o, &e) != 0 ||
+	if (spd_generate(&scene, spd_find(family), o, &e) != 0 ||
 	    primitives_make(&p, &scene, CURVES_KEEP, SPD_RESOLUTION, family, &e) != 0)
 		fail_msg("%s", e.text);
 	scene_free(&scene);
 	return p;
+}
+
+static inline struct primitives make_spd(const char *family, int size, bool tessellate)
+{
+	struct spd_options o;
+	key_defaults(spd_keys, &o);
+	o.size = size;
+	o.tessellate = tessellate;
+	return make_family(family, &o);
 }
 
 /* Primitives of a scene filled by hand; frees the scene. */

@@ -179,6 +179,51 @@ static void nodes_up_to_the_hit_are_predicted_exactly(void **state)
 	}
 }
 
+/* The walk to the nearest hit itself: where the hit is not known before, and boxes overlap. */
+static void boxes_are_visited_up_to_the_hit_and_no_others(void **state)
+{
+	(void)state;
+	static const struct { const char *family; int size, builder; } trees[] = {
+		{ "lab", SPD_DEFAULT_SIZE, BVH_SPATIAL }, { "theater", SPD_DEFAULT_SIZE, BVH_MEDIAN }, { "gears", 1, BVH_INSERTION }, { "teapot", 2, BVH_BINNED },
+	};
+	for (size_t k = 0; k < sizeof trees / sizeof *trees; k++) {
+		struct primitives p = make_spd(trees[k].family, trees[k].size, true);
+		struct err e = { 0 };
+		struct bvh_options o = options();
+		struct prediction predicted;
+		struct actual actual;
+		o.builder = trees[k].builder;
+		struct accel a = build("bvh", &o, &p);
+		assert_int_equal(cost_predict(&predicted, &a, LAW_RAYS, 1.2, 1, &e), 0);
+		assert_int_equal(shoot_rays(&actual, &a, WORKLOAD_INVARIANT, 100000, 5, 1.2, 1, par_processors(), NULL, &e), 0);
+		compare(trees[k].family, actual.cost, predicted.predicted_exact);
+		compare(trees[k].family, actual.leaves, predicted.leaves);
+		compare(trees[k].family, actual.tests, predicted.tests);
+		compare(trees[k].family, actual.inner_step, predicted.inner_step);
+		accel_free(&a);
+		primitives_free(&p);
+	}
+}
+
+/* A ray through hundreds of boxes at once leaves more for later than are kept in order. */
+static void boxes_beyond_number_are_visited_in_any_order(void **state)
+{
+	(void)state;
+	struct spd_options soup;
+	key_defaults(spd_keys, &soup);
+	soup.count = 4000;
+	soup.cube = 2;
+	struct primitives p = make_family("soup", &soup);
+	struct oracle oracle = oracle_make(&p, 300);
+	struct bvh_options o = options();
+	o.max_objects = 1;
+	struct accel a = build("bvh", &o, &p);
+	compare_hits(&a, &oracle, 0, "a dense soup");
+	accel_free(&a);
+	oracle_free(&oracle);
+	primitives_free(&p);
+}
+
 /* Nothing stops lines, so that SAH is their cost exactly. */
 static void lines_cost_their_areas(void **state)
 {
@@ -372,6 +417,8 @@ int main(void)
 		cmocka_unit_test(hits_are_those_of_the_list),
 		cmocka_unit_test(any_instructions_find_what_the_list_finds),
 		cmocka_unit_test(rays_out_of_the_root_hit_nothing),
+		cmocka_unit_test(boxes_are_visited_up_to_the_hit_and_no_others),
+		cmocka_unit_test(boxes_beyond_number_are_visited_in_any_order),
 		cmocka_unit_test(lines_cost_their_areas),
 		cmocka_unit_test(threads_do_not_change_the_tree),
 		cmocka_unit_test(order_does_not_matter),

@@ -109,6 +109,7 @@ struct accel {
 	struct box root;                     /* the region that is partitioned: holds every primitive */
 	double slack;                        /* 1e-9 of the root's diagonal */
 	bool volumes;                        /* a bounding volume hierarchy */
+	bool to_hit;                         /* rays visit the nodes of volumes that meet them up to their nearest hit, and no others */
 	bool plane_tests;                    /* 'barycentric' is counted */
 	bool inner_lists;                    /* what only touches a cell is not listed (accel_wants_inside) */
 	int threads;                         /* that build may use; the structure does not depend on it */

@@ -45,6 +45,7 @@ static int build(struct accel *a, const void *opt, struct err *e)
 	if (!b)
 		return err_memory(e, "bvh");
 	b->traversal = o->traversal;
+	a->to_hit = o->traversal == BVH_ORDERED;
 	int status = bvh_draft_make(&draft, a, (enum bvh_builder)o->builder, (int)o->optimise, &rules, e);
 	if (status == 0)
 		status = bvh_lay_out(a, b, &draft, e);
@@ -78,16 +79,33 @@ struct later {
 	double t;
 };
 
+/* Nodes that wait in order, at most. Where the ray goes through so many boxes at once, those of a single path wait on top of them, as
+ * they come: visited in any order, nodes give the same hit. */
+enum { SORTED = 128 };
+
+/* Put a node off until after those that the ray comes into before it. Returns the new top of the stack. */
+static inline struct later *put_off(struct later *bottom, struct later *top, struct later l, bool in_order)
+{
+	struct later *place = top;
+	if (in_order && top < bottom + SORTED)
+		for (; place > bottom && place[-1].t < l.t; place--)
+			*place = place[-1];
+	*place = l;
+	return top + 1;
+}
+
+/* Of all nodes known the ray comes into the next one first, so that it visits those up to its hit and no others. A ray that any hit ends
+ * keeps to the nearer child instead, which finds one sooner. */
 WALK walk(const struct accel *a, const struct ray *r, struct hit *h, struct tally *tally, const bool count)
 {
 	const struct bvh *b = a->impl;
 	const struct bvh_ray packed = bvh_ray(r);
-	struct later later[BVH_DEEPEST], *top = later;
+	struct later later[SORTED + BVH_DEEPEST], *top = later;
 	uint32_t node = 0;
 	double t[2];
 	*h = hit_none(r);
 	COUNT(boxes, 1);
-	bool going = bvh_meets(&b->nodes[0].bounds, &packed, h->t, t);
+	bool going = bvh_meets(&b->nodes[0].bounds, &packed, h->t, t), in_order = !r->any;
 	while (going) {
 		const struct bvh_node *n = &b->nodes[node];
 		bool meets[2] = { false, false };
@@ -106,15 +124,23 @@ WALK walk(const struct accel *a, const struct ray *r, struct hit *h, struct tall
 		}
 		if (meets[0] & meets[1]) {
 			int far = t[0] <= t[1];
-			*top++ = (struct later){ far ? n->right : node + 1, t[far] };
+			top = put_off(later, top, (struct later){ far ? n->right : node + 1, t[far] }, in_order);
 			node = far ? node + 1 : n->right;
+			t[0] = t[!far];
 		} else if (meets[0] | meets[1]) {
 			node = meets[0] ? node + 1 : n->right;
+			t[0] = meets[0] ? t[0] : t[1];
 		} else {
 			while (top > later && top[-1].t > h->t + r->slack)
 				top--;
 			going = top > later;
 			node = going ? (--top)->node : 0;
+			continue;
+		}
+		if (in_order && top > later && top[-1].t < t[0]) {
+			struct later first = *--top;
+			top = put_off(later, top, (struct later){ node, t[0] }, true);
+			node = first.node;
 		}
 	}
 	root_drop_hit(&a->root, r, a->slack, h);

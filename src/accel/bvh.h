@@ -5,7 +5,7 @@
 #include "accel/accel.h"
 #include "accel/bvh_draft.h"
 
-/* How rays find their way. ORDERED: the nearer child first, boxes beyond the nearest hit are left out. The others are the steps of
+/* How rays find their way. ORDERED: of all boxes known the one the ray comes into first, up to the nearest hit. The others are the steps of
  * Smits 1999, table 1, and visit the whole subtree in a fixed order: POINT tests boxes by the point where the ray enters, by
  * recursion; SLABS by intervals; SIBLING without recursion, over links to left child, right sibling and parent; SKIP over links to
  * the node after a subtree; ARRAY the same in an array in depth-first order; ANY ends at the first primitive found, where the ray

@@ -19,12 +19,13 @@ static uint32_t count_nodes(const struct bvh_draft *d, uint32_t node, int depth,
 	return 1 + count_nodes(d, n->first, depth + 1, deepest) + count_nodes(d, n->first + 1, depth + 1, deepest);
 }
 
-static struct box scene_box(const struct bvh_draft *d, const struct bvh_draft_node *n)
+/* A box in the scene, larger by the slack: surface in a plane that splits space is inside on both sides of it, however the plane is rounded. */
+static struct box scene_box(const struct bvh_draft *d, const struct bvh_draft_node *n, double slack)
 {
 	struct box b;
 	for (int i = 0; i < 3; i++) {
-		b.lo.a[i] = n->lo[i] / d->frame.scale + d->frame.center.a[i];
-		b.hi.a[i] = n->hi[i] / d->frame.scale + d->frame.center.a[i];
+		b.lo.a[i] = n->lo[i] / d->frame.scale + d->frame.center.a[i] - slack;
+		b.hi.a[i] = n->hi[i] / d->frame.scale + d->frame.center.a[i] + slack;
 	}
 	return b;
 }
@@ -35,7 +36,7 @@ static void fill_leaf(struct layout *l, struct bvh_node *n, const struct bvh_dra
 	const struct bvh_draft *d = l->draft;
 	n->first = l->ids;
 	n->count = from->count;
-	n->bounds = d->parts ? scene_box(d, from) : box_empty();
+	n->bounds = d->parts ? scene_box(d, from, l->accel->slack) : box_empty();
 	for (uint32_t i = 0; i < from->count; i++) {
 		uint32_t id = d->refs[from->first + i].id;
 		struct box b = primitive_bounds(&d->primitives->all[id]);

@@ -131,7 +131,7 @@ static void sum_up(struct prediction *p, const struct volumes *v, bool lines, do
 	p->epo = lines ? NAN : epo / surface;
 	p->dq = lines ? NAN : dq / surface;
 	p->surface_share = 2 * surface / all;
-	p->predicted_exact = lines ? p->volumes : NAN;
+	p->predicted_exact = lines || v->accel->to_hit ? p->volumes : NAN;
 }
 
 int bvh_predict(struct prediction *p, const struct accel *a, enum law law, double alpha, double beta, struct err *e)

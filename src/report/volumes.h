@@ -1,4 +1,4 @@
-/* How near the exact cost of bounding volume hierarchies comes to what an ordered traversal costs. */
+/* How near predictions for bounding volume hierarchies come to what traversals cost that find the nearest hit. */
 #ifndef REPORT_VOLUMES_H
 #define REPORT_VOLUMES_H
 
