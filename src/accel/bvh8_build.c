@@ -14,13 +14,19 @@ struct leaf {
 	uint32_t unit, first, count;
 };
 
+/* What a node gathers below it. */
+struct wide {
+	uint32_t child[BVH8_WIDE], count;
+};
+
 struct layout {
 	struct accel *accel;
 	struct bvh8 *bvh;
 	const struct bvh_draft *draft;
+	struct wide *wide; /* nodes in the order in which they are placed */
 	struct leaf *leaves;
 	uint32_t units;
-	size_t leaf_count;
+	size_t wide_count, leaf_count;
 };
 
 static bool is_leaf(const struct bvh_draft_node *n)
@@ -29,29 +35,29 @@ static bool is_leaf(const struct bvh_draft_node *n)
 }
 
 /* The up to eight nodes below 'node' that become its children. */
-static int gather(const struct bvh_draft *d, uint32_t node, uint32_t child[BVH8_WIDE])
+static void gather(const struct bvh_draft *d, uint32_t node, struct wide *w)
 {
 	float area[BVH8_WIDE];
-	int count = 0;
+	uint32_t *child = w->child, count = 0;
 	for (uint32_t open = node; count < BVH8_WIDE;) {
 		const struct bvh_draft_node *n = &d->nodes[open];
 		for (uint32_t i = n->first; i < n->first + 2; i++) {
 			child[count] = i;
 			area[count++] = is_leaf(&d->nodes[i]) ? -1 : quad_box_half_area(bvh_node_box(&d->nodes[i]));
 		}
-		int widest = 0;
-		for (int i = 1; i < count; i++)
+		uint32_t widest = 0;
+		for (uint32_t i = 1; i < count; i++)
 			widest = area[i] > area[widest] ? i : widest;
 		if (area[widest] < 0 || count == BVH8_WIDE)
-			return count;
+			break;
 		open = child[widest];
 		child[widest] = child[--count];
 		area[widest] = area[count];
 	}
-	return count;
+	w->count = count;
 }
 
-static void set_child(struct bvh8_node *n, int i, const struct bvh_draft_node *from)
+static void set_child(struct bvh8_node *n, uint32_t i, const struct bvh_draft_node *from)
 {
 	for (int axis = 0; axis < 3; axis++) {
 		n->planes[2 * axis][i] = from->lo[axis] - BVH8_GROWTH;
@@ -71,24 +77,24 @@ static uint32_t place_leaf(struct layout *l, const struct bvh_draft_node *n)
 static uint32_t place(struct layout *l, uint32_t node, int depth)
 {
 	const struct bvh_draft *d = l->draft;
-	uint32_t child[BVH8_WIDE], unit = l->units;
+	uint32_t unit = l->units;
 	struct bvh8_node *n = (void *)(l->bvh->units + (size_t)unit * BVH8_UNIT);
 	l->accel->depth = depth > l->accel->depth ? depth : l->accel->depth;
 	l->accel->nodes++;
 	if (is_leaf(&d->nodes[node]))
 		return place_leaf(l, &d->nodes[node]);
-	int count = gather(d, node, child);
+	const struct wide *w = &l->wide[l->wide_count++];
 	l->units += NODE_UNITS;
-	n->children = (uint32_t)count;
-	for (int i = 0; i < BVH8_WIDE; i++)
-		for (int plane = 0; plane < 6 && i >= count; plane++)
+	n->children = w->count;
+	for (uint32_t i = w->count; i < BVH8_WIDE; i++)
+		for (int plane = 0; plane < 6; plane++)
 			n->planes[plane][i] = plane % 2 ? -INFINITY : INFINITY;
 	for (int inner = 0; inner < 2; inner++)
-		for (int i = 0; i < count; i++) {
-			if (is_leaf(&d->nodes[child[i]]) == inner)
+		for (uint32_t i = 0; i < w->count; i++) {
+			if (is_leaf(&d->nodes[w->child[i]]) == inner)
 				continue;
-			set_child(n, i, &d->nodes[child[i]]);
-			n->child[i] = place(l, child[i], depth + 1);
+			set_child(n, i, &d->nodes[w->child[i]]);
+			n->child[i] = place(l, w->child[i], depth + 1);
 		}
 	return unit << 4;
 }
@@ -157,43 +163,54 @@ static void fill_leaves(void *ctx, size_t chunk)
 	}
 }
 
-/* Leaves and units of what will be laid out. */
-static void count_below(const struct bvh_draft *d, uint32_t node, size_t *leaves, size_t *units)
+/* Gather the nodes of what will be laid out; counts them, its leaves and units. */
+static void gather_below(struct layout *l, uint32_t node, size_t *units)
 {
-	uint32_t child[BVH8_WIDE];
+	const struct bvh_draft *d = l->draft;
 	if (is_leaf(&d->nodes[node])) {
-		++*leaves;
+		l->leaf_count++;
 		*units += bvh_blocks(d->nodes[node].count, BVH8_LANES) * (size_t)BLOCK_UNITS;
 		return;
 	}
-	int count = gather(d, node, child);
+	const struct wide *w = &l->wide[l->wide_count];
+	gather(d, node, &l->wide[l->wide_count++]);
 	*units += NODE_UNITS;
-	for (int i = 0; i < count; i++)
-		count_below(d, child[i], leaves, units);
+	for (uint32_t i = 0; i < w->count; i++)
+		gather_below(l, w->child[i], units);
+}
+
+/* Fill b, l's draft having been gathered. 0, or -1 and *e: memory, too deep. */
+static int lay_out(struct layout *l, size_t units, const struct bvh_rules *rules, struct err *e)
+{
+	struct accel *a = l->accel;
+	size_t leaves = l->leaf_count;
+	l->wide_count = l->leaf_count = 0;
+	l->bvh->units = NEW(&a->mem, char, units * BVH8_UNIT);
+	l->leaves = malloc(leaves * sizeof *l->leaves);
+	if (!l->bvh->units || !l->leaves)
+		return err_memory(e, "bvh8");
+	l->bvh->root = place(l, 0, 0);
+	if (a->depth > BVH_DEPTH)
+		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "bvh8: the tree is deeper than %d; another builder makes a shallower one", (int)BVH_DEPTH);
+	par_for(rules->threads, (leaves + CHUNK - 1) / CHUNK, fill_leaves, l);
+	bvh8_order_children(l->bvh);
+	a->leaves = leaves;
+	a->references = l->draft->ref_count;
+	return 0;
 }
 
 int bvh8_lay_out(struct accel *a, struct bvh8 *b, const struct bvh_draft *d, const struct bvh_rules *rules, struct err *e)
 {
-	struct layout l = { .accel = a, .bvh = b, .draft = d };
-	size_t leaves = 0, units = 0;
-	count_below(d, 0, &leaves, &units);
-	if (units >= (size_t)1 << 28)
-		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "bvh8: more than 16 GiB");
-	b->units = NEW(&a->mem, char, units * BVH8_UNIT);
-	l.leaves = malloc(leaves * sizeof *l.leaves);
-	if (!b->units || !l.leaves) {
-		free(l.leaves);
-		return err_memory(e, "bvh8");
-	}
-	b->root = place(&l, 0, 0);
-	if (a->depth > BVH_DEPTH) {
-		free(l.leaves);
-		return err_at(e, STATUS_ENVIRONMENT, NULL, 0, "bvh8: the tree is deeper than %d; another builder makes a shallower one", (int)BVH_DEPTH);
-	}
-	par_for(rules->threads, (leaves + CHUNK - 1) / CHUNK, fill_leaves, &l);
-	bvh8_order_children(b);
-	a->leaves = leaves;
-	a->references = d->ref_count;
+	struct layout l = { .accel = a, .bvh = b, .draft = d, .wide = arena_pages((size_t)d->ref_count * sizeof *l.wide) };
+	size_t units = 0;
+	int status = l.wide ? 0 : err_memory(e, "bvh8");
+	if (status == 0)
+		gather_below(&l, 0, &units);
+	if (status == 0 && units >= (size_t)1 << 28)
+		status = err_at(e, STATUS_ENVIRONMENT, NULL, 0, "bvh8: more than 16 GiB");
+	if (status == 0)
+		status = lay_out(&l, units, rules, e);
+	free(l.wide);
 	free(l.leaves);
-	return 0;
+	return status;
 }

@@ -116,35 +116,96 @@ static float weigh(const struct bvh_rules *r, struct quad_box box, uint32_t coun
 	return quad_box_half_area(box) * (float)bvh_blocks(count, r->block);
 }
 
+/* What is in a bin of every axis, or in several of them: lane i is axis i. */
+struct by_axis {
+	quad lo[3], hi[3];
+	quad_int count;
+};
+
+/* Lane i of the outcome k is coordinate k of v[i]. */
+static inline void transpose(quad a, quad b, quad c, quad out[3])
+{
+	quad low = __builtin_shuffle(a, b, (quad_int){ 0, 4, 1, 5 }), high = __builtin_shuffle(a, b, (quad_int){ 2, 6, 2, 6 });
+	out[0] = __builtin_shuffle(low, c, (quad_int){ 0, 1, 4, 4 });
+	out[1] = __builtin_shuffle(low, c, (quad_int){ 2, 3, 5, 5 });
+	out[2] = __builtin_shuffle(high, c, (quad_int){ 0, 1, 6, 6 });
+}
+
+static inline struct by_axis bin_by_axis(const struct bins *b, int i)
+{
+	struct by_axis a;
+	transpose(b->box[0][i].lo, b->box[1][i].lo, b->box[2][i].lo, a.lo);
+	transpose(b->box[0][i].hi, b->box[1][i].hi, b->box[2][i].hi, a.hi);
+	a.count = (quad_int){ (int32_t)b->count[0][i], (int32_t)b->count[1][i], (int32_t)b->count[2][i], 0 };
+	return a;
+}
+
+static inline struct by_axis none_by_axis(void)
+{
+	quad high = quad_of(INFINITY), low = quad_of(-INFINITY);
+	return (struct by_axis){ { high, high, high }, { low, low, low }, { 0 } };
+}
+
+static inline void join_by_axis(struct by_axis *a, const struct by_axis *b)
+{
+	for (int i = 0; i < 3; i++) {
+		a->lo[i] = quad_min(a->lo[i], b->lo[i]);
+		a->hi[i] = quad_max(a->hi[i], b->hi[i]);
+	}
+	a->count += b->count;
+}
+
+static inline quad quad_select(quad_int where, quad yes, quad no)
+{
+	return (quad)(((quad_int)yes & where) | ((quad_int)no & ~where));
+}
+
+/* As weigh, INFINITY where there is nothing. shift: of the primitives of a block. */
+static inline quad weigh_by_axis(const struct by_axis *a, int shift)
+{
+	quad x = a->hi[0] - a->lo[0], y = a->hi[1] - a->lo[1], z = a->hi[2] - a->lo[2];
+	quad_int blocks = (a->count + ((1 << shift) - 1)) >> shift;
+	return quad_select(a->count > 0, (x * y + y * z + z * x) * __builtin_convertvector(blocks, quad), quad_of(INFINITY));
+}
+
+/* The cheapest plane of every axis, and what is on its left. */
+static inline void sweep(const struct bins *b, int bins, int shift, quad *cost, quad_int *bin, quad_int *left)
+{
+	struct by_axis all[BVH_BINS], side = none_by_axis();
+	quad right[BVH_BINS];
+	for (int i = 0; i < bins; i++)
+		all[i] = bin_by_axis(b, i);
+	for (int i = bins - 1; i > 0; i--) {
+		join_by_axis(&side, &all[i]);
+		right[i] = weigh_by_axis(&side, shift);
+	}
+	side = none_by_axis();
+	*cost = quad_of(INFINITY);
+	*bin = *left = (quad_int){ 0 };
+	for (int i = 1; i < bins; i++) {
+		join_by_axis(&side, &all[i - 1]);
+		quad at = weigh_by_axis(&side, shift) + right[i];
+		quad_int better = at < *cost;
+		*cost = quad_select(better, at, *cost);
+		*bin = (better & i) | (~better & *bin);
+		*left = (better & side.count) | (~better & *left);
+	}
+}
+
 /* The cheapest plane between bins; s->base and s->scale are set. */
 static void find_plane(struct split *s, const struct bins *b, int bins, const struct bvh_rules *rules)
 {
-	float right[BVH_BINS];
+	quad cost;
+	quad_int bin, left;
 	s->cost = INFINITY;
-	for (int axis = 0; axis < 3; axis++) {
-		struct quad_box box = quad_box_empty();
-		uint32_t count = 0;
-		if (s->scale[axis] == 0)
-			continue;
-		for (int i = bins - 1; i > 0; i--) {
-			quad_box_join(&box, b->box[axis][i]);
-			count += b->count[axis][i];
-			right[i] = count ? weigh(rules, box, count) : INFINITY;
+	sweep(b, bins, __builtin_ctz(rules->block), &cost, &bin, &left);
+	for (int axis = 0; axis < 3; axis++)
+		if (s->scale[axis] != 0 && cost[axis] < s->cost) {
+			s->cost = cost[axis];
+			s->axis = axis;
+			s->bin = bin[axis];
+			s->left = (uint32_t)left[axis];
 		}
-		box = quad_box_empty();
-		count = 0;
-		for (int i = 1; i < bins; i++) {
-			quad_box_join(&box, b->box[axis][i - 1]);
-			count += b->count[axis][i - 1];
-			float cost = count ? weigh(rules, box, count) + right[i] : INFINITY;
-			if (cost < s->cost) {
-				s->cost = cost;
-				s->axis = axis;
-				s->bin = i;
-				s->left = count;
-			}
-		}
-	}
 	if (s->cost == INFINITY)
 		return;
 	s->box[0] = s->box[1] = quad_box_empty();

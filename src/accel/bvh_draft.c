@@ -14,33 +14,93 @@ static struct bvh_frame frame_make(const struct box *root)
 	return (struct bvh_frame){ vec_scale(vec_add(root->lo, root->hi), 0.5), ldexp(1, -exponent) };
 }
 
-/* A float not above x, and one not below: x itself where it is one. Coordinates are at most 1. */
-static inline float round_down(double x)
+/* Two coordinates at once: of a vec x and y, or z and what follows. */
+typedef double pair __attribute__((vector_size(16)));
+typedef int64_t pair_int __attribute__((vector_size(16)));
+typedef float half_quad __attribute__((vector_size(8)));
+
+static inline pair pair_select(pair_int where, pair yes, pair no)
 {
-	float f = (float)x;
-	return f > x ? f - 0x1p-24f : f;
+	return (pair)(((pair_int)yes & where) | ((pair_int)no & ~where));
 }
 
-static inline float round_up(double x)
+/* x in floats, and where they are above it or below. Not a branch, for no processor can guess which way a number is rounded. */
+static inline half_quad round_pair(pair x, pair_int *above, pair_int *below)
 {
-	float f = (float)x;
-	return f < x ? f + 0x1p-24f : f;
+	half_quad f = __builtin_convertvector(x, half_quad);
+	pair back = __builtin_convertvector(f, pair);
+	*above = back > x;
+	*below = back < x;
+	return f;
+}
+
+static inline quad join_halves(half_quad a, half_quad b)
+{
+	return (quad){ a[0], a[1], b[0], b[1] };
+}
+
+/* 2^-24 where a comparison of pairs is true. */
+static inline quad step_where(pair_int a, pair_int b)
+{
+	quad_int where = __builtin_shuffle((quad_int)a, (quad_int)b, (quad_int){ 0, 2, 4, 6 });
+	return (quad)(where & (quad_int)quad_of(0x1p-24f));
+}
+
+/* The floats next to a box, outside it; those of its numbers that are floats stay. Coordinates are at most 1. */
+static inline void set_box(union bvh_ref *r, const pair lo[2], const pair hi[2])
+{
+	pair_int above[2], below[2], unused;
+	half_quad low[2], high[2];
+	for (int k = 0; k < 2; k++) {
+		low[k] = round_pair(lo[k], &above[k], &unused);
+		high[k] = round_pair(hi[k], &unused, &below[k]);
+	}
+	r->box.lo = join_halves(low[0], low[1]) - step_where(above[0], above[1]);
+	r->box.hi = join_halves(high[0], high[1]) + step_where(below[0], below[1]);
+}
+
+static inline void load_pairs(pair p[2], const struct vec *v)
+{
+	p[0] = (pair){ v->x, v->y };
+	p[1] = (pair){ v->z, v->z };
+}
+
+/* The box of a primitive's corners, or of its bounds. */
+static inline void fill_ref(union bvh_ref *r, const struct vec *corner, int corners, const struct bvh_frame *f)
+{
+	pair lo[2], hi[2], v[2], center[2];
+	load_pairs(center, &f->center);
+	load_pairs(lo, &corner[0]);
+	load_pairs(hi, &corner[0]);
+	for (int i = 1; i < corners; i++) {
+		load_pairs(v, &corner[i]);
+		for (int k = 0; k < 2; k++) {
+			lo[k] = pair_select(v[k] < lo[k], v[k], lo[k]);
+			hi[k] = pair_select(v[k] > hi[k], v[k], hi[k]);
+		}
+	}
+	for (int k = 0; k < 2; k++) {
+		lo[k] = (lo[k] - center[k]) * f->scale;
+		hi[k] = (hi[k] - center[k]) * f->scale;
+	}
+	set_box(r, lo, hi);
 }
 
 static void fill_refs(void *ctx, size_t chunk)
 {
 	struct bvh_draft *d = ctx;
-	const struct bvh_frame *f = &d->frame;
 	uint32_t first = (uint32_t)chunk * CHUNK, end = first + CHUNK < d->ref_count ? first + CHUNK : d->ref_count;
 	for (uint32_t i = first; i < end; i++) {
-		struct box b = primitive_bounds(&d->primitives->all[i]);
+		const struct primitive *p = &d->primitives->all[i];
 		union bvh_ref *r = &d->refs[i];
+		if (p->kind == PRIMITIVE_TRIANGLE) {
+			fill_ref(r, p->triangle.v, 3, &d->frame);
+		} else {
+			struct box b = primitive_bounds(p);
+			fill_ref(r, (struct vec[]){ b.lo, b.hi }, 2, &d->frame);
+		}
 		r->id = i;
 		r->unused = 0;
-		for (int k = 0; k < 3; k++) {
-			r->lo[k] = round_down((b.lo.a[k] - f->center.a[k]) * f->scale);
-			r->hi[k] = round_up((b.hi.a[k] - f->center.a[k]) * f->scale);
-		}
 	}
 }
 

@@ -41,7 +41,7 @@ struct bvh_draft {
 /* What a leaf and a step cost, for builders that weigh. A leaf of n costs test * blocks of n, an inner node costs step. */
 struct bvh_rules {
 	float step, test;
-	uint32_t block; /* primitives tested together */
+	uint32_t block; /* primitives tested together: a power of two */
 	uint32_t most;  /* primitives a leaf may list, >= 1 */
 	int bins;       /* binned, spatial: planes tried an axis, plus one; at most BVH_BINS */
 	int threads;
