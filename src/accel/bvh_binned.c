@@ -1,6 +1,6 @@
 /* Binned surface area heuristic (Wald 2007): sort centroids into equal bins on every axis, try the planes between bins. Large ranges
  * are binned and divided in chunks by all threads, small ones are left to one thread each; neither changes the tree. */
-#include "accel/bvh_draft.h"
+#include "accel/bvh_plane.h"
 #include "base/par.h"
 
 #include <stdlib.h>
@@ -17,20 +17,6 @@ struct range {
 	struct quad_box box;
 };
 
-struct bins {
-	struct quad_box box[3][BVH_BINS];
-	uint32_t count[3][BVH_BINS];
-};
-
-/* A plane: references whose bin on 'axis' is below 'bin' go left. base, scale: from centroids to bins. */
-struct split {
-	quad base, scale;
-	int axis, bin;
-	float cost; /* without the step; INFINITY: none */
-	uint32_t left;
-	struct quad_box box[2];
-};
-
 struct builder {
 	const struct bvh_rules *rules;
 	struct bvh_draft *draft;
@@ -45,7 +31,7 @@ static inline quad_int bin_of(const union bvh_ref *r, quad base, quad scale)
 	return __builtin_convertvector((bvh_ref_center(r) - base) * scale, quad_int);
 }
 
-static void bins_clear(struct bins *b, int bins)
+static void bins_clear(struct bvh_bins *b, int bins)
 {
 	for (int axis = 0; axis < 3; axis++)
 		for (int i = 0; i < bins; i++) {
@@ -54,7 +40,7 @@ static void bins_clear(struct bins *b, int bins)
 		}
 }
 
-static inline void bins_add_one(struct bins *b, const union bvh_ref *r, quad base, quad scale)
+static inline void bins_add_one(struct bvh_bins *b, const union bvh_ref *r, quad base, quad scale)
 {
 	quad_int at = bin_of(r, base, scale);
 	for (int axis = 0; axis < 3; axis++) {
@@ -63,7 +49,7 @@ static inline void bins_add_one(struct bins *b, const union bvh_ref *r, quad bas
 	}
 }
 
-static void bins_merge(struct bins *b, const struct bins *c, int bins)
+static void bins_merge(struct bvh_bins *b, const struct bvh_bins *c, int bins)
 {
 	for (int axis = 0; axis < 3; axis++)
 		for (int k = 0; k < bins; k++) {
@@ -73,9 +59,9 @@ static void bins_merge(struct bins *b, const struct bins *c, int bins)
 }
 
 /* Neighbours in the list mostly share their bins: every other goes into bins of its own, so that none waits for the one before. */
-static void bins_add(struct bins *b, const union bvh_ref *refs, uint32_t count, quad base, quad scale, int bins)
+static void bins_add(struct bvh_bins *b, const union bvh_ref *refs, uint32_t count, quad base, quad scale, int bins)
 {
-	struct bins odd;
+	struct bvh_bins odd;
 	uint32_t i = 0;
 	if (count >= 128) {
 		bins_clear(&odd, bins);
@@ -100,7 +86,7 @@ static struct quad_box bound_centers(const union bvh_ref *refs, uint32_t count)
 }
 
 /* From centroids to bins; the largest one stays below 'bins'. An axis without extent has all in bin 0. */
-static void place_bins(struct split *s, const struct quad_box *centers, int bins)
+static void place_bins(struct bvh_plane *s, const struct quad_box *centers, int bins)
 {
 	s->base = centers->lo;
 	s->scale = quad_of(0);
@@ -116,111 +102,14 @@ static float weigh(const struct bvh_rules *r, struct quad_box box, uint32_t coun
 	return quad_box_half_area(box) * (float)bvh_blocks(count, r->block);
 }
 
-/* What is in a bin of every axis, or in several of them: lane i is axis i. */
-struct by_axis {
-	quad lo[3], hi[3];
-	quad_int count;
-};
-
-/* Lane i of the outcome k is coordinate k of v[i]. */
-static inline void transpose(quad a, quad b, quad c, quad out[3])
-{
-	quad low = __builtin_shuffle(a, b, (quad_int){ 0, 4, 1, 5 }), high = __builtin_shuffle(a, b, (quad_int){ 2, 6, 2, 6 });
-	out[0] = __builtin_shuffle(low, c, (quad_int){ 0, 1, 4, 4 });
-	out[1] = __builtin_shuffle(low, c, (quad_int){ 2, 3, 5, 5 });
-	out[2] = __builtin_shuffle(high, c, (quad_int){ 0, 1, 6, 6 });
-}
-
-static inline struct by_axis bin_by_axis(const struct bins *b, int i)
-{
-	struct by_axis a;
-	transpose(b->box[0][i].lo, b->box[1][i].lo, b->box[2][i].lo, a.lo);
-	transpose(b->box[0][i].hi, b->box[1][i].hi, b->box[2][i].hi, a.hi);
-	a.count = (quad_int){ (int32_t)b->count[0][i], (int32_t)b->count[1][i], (int32_t)b->count[2][i], 0 };
-	return a;
-}
-
-static inline struct by_axis none_by_axis(void)
-{
-	quad high = quad_of(INFINITY), low = quad_of(-INFINITY);
-	return (struct by_axis){ { high, high, high }, { low, low, low }, { 0 } };
-}
-
-static inline void join_by_axis(struct by_axis *a, const struct by_axis *b)
-{
-	for (int i = 0; i < 3; i++) {
-		a->lo[i] = quad_min(a->lo[i], b->lo[i]);
-		a->hi[i] = quad_max(a->hi[i], b->hi[i]);
-	}
-	a->count += b->count;
-}
-
-static inline quad quad_select(quad_int where, quad yes, quad no)
-{
-	return (quad)(((quad_int)yes & where) | ((quad_int)no & ~where));
-}
-
-/* As weigh, INFINITY where there is nothing. shift: of the primitives of a block. */
-static inline quad weigh_by_axis(const struct by_axis *a, int shift)
-{
-	quad x = a->hi[0] - a->lo[0], y = a->hi[1] - a->lo[1], z = a->hi[2] - a->lo[2];
-	quad_int blocks = (a->count + ((1 << shift) - 1)) >> shift;
-	return quad_select(a->count > 0, (x * y + y * z + z * x) * __builtin_convertvector(blocks, quad), quad_of(INFINITY));
-}
-
-/* The cheapest plane of every axis, and what is on its left. */
-static inline void sweep(const struct bins *b, int bins, int shift, quad *cost, quad_int *bin, quad_int *left)
-{
-	struct by_axis all[BVH_BINS], side = none_by_axis();
-	quad right[BVH_BINS];
-	for (int i = 0; i < bins; i++)
-		all[i] = bin_by_axis(b, i);
-	for (int i = bins - 1; i > 0; i--) {
-		join_by_axis(&side, &all[i]);
-		right[i] = weigh_by_axis(&side, shift);
-	}
-	side = none_by_axis();
-	*cost = quad_of(INFINITY);
-	*bin = *left = (quad_int){ 0 };
-	for (int i = 1; i < bins; i++) {
-		join_by_axis(&side, &all[i - 1]);
-		quad at = weigh_by_axis(&side, shift) + right[i];
-		quad_int better = at < *cost;
-		*cost = quad_select(better, at, *cost);
-		*bin = (better & i) | (~better & *bin);
-		*left = (better & side.count) | (~better & *left);
-	}
-}
-
-/* The cheapest plane between bins; s->base and s->scale are set. */
-static void find_plane(struct split *s, const struct bins *b, int bins, const struct bvh_rules *rules)
-{
-	quad cost;
-	quad_int bin, left;
-	s->cost = INFINITY;
-	sweep(b, bins, __builtin_ctz(rules->block), &cost, &bin, &left);
-	for (int axis = 0; axis < 3; axis++)
-		if (s->scale[axis] != 0 && cost[axis] < s->cost) {
-			s->cost = cost[axis];
-			s->axis = axis;
-			s->bin = bin[axis];
-			s->left = (uint32_t)left[axis];
-		}
-	if (s->cost == INFINITY)
-		return;
-	s->box[0] = s->box[1] = quad_box_empty();
-	for (int i = 0; i < bins; i++)
-		quad_box_join(&s->box[i >= s->bin], b->box[s->axis][i]);
-}
-
-static inline bool goes_left(const union bvh_ref *r, const struct split *s)
+static inline bool goes_left(const union bvh_ref *r, const struct bvh_plane *s)
 {
 	float at = (bvh_ref_center(r)[s->axis] - s->base[s->axis]) * s->scale[s->axis];
 	return (int32_t)at < s->bin;
 }
 
 /* Left ones first, in order; scratch has room for all. */
-static void divide(union bvh_ref *refs, uint32_t count, const struct split *s, union bvh_ref *scratch)
+static void divide(union bvh_ref *refs, uint32_t count, const struct bvh_plane *s, union bvh_ref *scratch)
 {
 	uint32_t left = 0, right = 0;
 	for (uint32_t i = 0; i < count; i++) {
@@ -235,7 +124,7 @@ static void divide(union bvh_ref *refs, uint32_t count, const struct split *s, u
 }
 
 /* Where no plane parts them, halves of the list do. */
-static void halve(struct split *s, const struct range *r)
+static void halve(struct bvh_plane *s, const struct range *r)
 {
 	s->left = r->count / 2;
 	s->box[0] = s->box[1] = quad_box_empty();
@@ -244,7 +133,7 @@ static void halve(struct split *s, const struct range *r)
 }
 
 /* Whether the range is cheaper as a leaf, or can be nothing else. */
-static bool is_leaf(const struct range *r, const struct split *s, const struct bvh_rules *rules)
+static bool is_leaf(const struct range *r, const struct bvh_plane *s, const struct bvh_rules *rules)
 {
 	float leaf = weigh(rules, r->box, r->count) * rules->test;
 	return r->count <= rules->most && leaf <= quad_box_half_area(r->box) * rules->step + s->cost * rules->test;
@@ -262,7 +151,7 @@ static void make_leaf(struct builder *b, const struct range *r)
 }
 
 /* The two sides of a divided range; its node becomes inner. */
-static void make_inner(struct builder *b, const struct range *r, const struct split *s, uint32_t children, struct range side[2])
+static void make_inner(struct builder *b, const struct range *r, const struct bvh_plane *s, uint32_t children, struct range side[2])
 {
 	bvh_node_set(&b->draft->nodes[r->node], r->box, children, 0);
 	side[0] = (struct range){ r->refs, r->first, s->left, children, 0, r->depth + 1, s->box[0] };
@@ -270,11 +159,11 @@ static void make_inner(struct builder *b, const struct range *r, const struct sp
 }
 
 /* One thread's work: *slot is where the next node goes. */
-static void build_range(struct builder *b, struct range r, struct bins *bins, uint32_t *slot, union bvh_ref *scratch)
+static void build_range(struct builder *b, struct range r, struct bvh_bins *bins, uint32_t *slot, union bvh_ref *scratch)
 {
 	const struct bvh_rules *rules = b->rules;
 	for (;;) {
-		struct split s = { .cost = INFINITY };
+		struct bvh_plane s = { .cost = INFINITY };
 		struct range side[2];
 		union bvh_ref *refs = &r.refs[r.first];
 		if (r.count == 1 || (r.count <= rules->block && r.count <= rules->most)) {
@@ -287,7 +176,7 @@ static void build_range(struct builder *b, struct range r, struct bins *bins, ui
 			place_bins(&s, &centers, n);
 			bins_clear(bins, n);
 			bins_add(bins, refs, r.count, s.base, s.scale, n);
-			find_plane(&s, bins, n, rules);
+			bvh_find_plane(&s, bins, n, rules);
 		}
 		if (is_leaf(&r, &s, rules)) {
 			make_leaf(b, &r);
@@ -308,7 +197,7 @@ static void build_task(void *ctx, size_t i)
 {
 	struct builder *b = ctx;
 	struct range r = b->tasks[i];
-	struct bins bins;
+	struct bvh_bins bins;
 	union bvh_ref *home = &b->buffer[0][r.first], *scratch = &b->buffer[1][r.first];
 	if (r.refs != b->buffer[0])
 		memcpy(home, scratch, r.count * sizeof *home);
@@ -319,11 +208,11 @@ static void build_task(void *ctx, size_t i)
 /* Work on one large range, chunk by chunk. */
 struct pass {
 	const struct range *range;
-	const struct split *split;
+	const struct bvh_plane *split;
 	int bins;
 	struct chunk {
 		struct quad_box centers;
-		struct bins bins;
+		struct bvh_bins bins;
 		uint32_t left, to_left, to_right;
 	} *chunks;
 	union bvh_ref *to;
@@ -359,7 +248,7 @@ static void pass_divide(void *ctx, size_t i)
 }
 
 /* The best plane of a large range; the chunks' counts give every chunk its places on both sides. */
-static void split_large(struct builder *b, const struct range *r, struct split *s, struct pass *p)
+static void split_large(struct builder *b, const struct range *r, struct bvh_plane *s, struct pass *p)
 {
 	size_t chunks = (r->count + CHUNK - 1) / CHUNK;
 	struct quad_box centers = quad_box_empty();
@@ -370,11 +259,11 @@ static void split_large(struct builder *b, const struct range *r, struct split *
 		quad_box_join(&centers, p->chunks[i].centers);
 	place_bins(s, &centers, n);
 	par_for(threads, chunks, pass_bins, p);
-	struct bins all;
+	struct bvh_bins all;
 	bins_clear(&all, n);
 	for (size_t i = 0; i < chunks; i++)
 		bins_merge(&all, &p->chunks[i].bins, n);
-	find_plane(s, &all, n, b->rules);
+	bvh_find_plane(s, &all, n, b->rules);
 	if (s->cost == INFINITY)
 		return;
 	uint32_t left = r->first, right = r->first + s->left;
@@ -397,7 +286,7 @@ static void build_top(struct builder *b, struct range all, struct chunk *chunks)
 	open[count++] = all;
 	while (count > 0) {
 		struct range r = open[--count], side[2];
-		struct split s;
+		struct bvh_plane s;
 		struct pass p = { .chunks = chunks };
 		if (r.count <= TASK || r.depth >= BVH_DEPTH / 2) {
 			b->tasks[b->task_count++] = r;

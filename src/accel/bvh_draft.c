@@ -42,7 +42,7 @@ static inline quad join_halves(half_quad a, half_quad b)
 /* 2^-24 where a comparison of pairs is true. */
 static inline quad step_where(pair_int a, pair_int b)
 {
-	quad_int where = __builtin_shuffle((quad_int)a, (quad_int)b, (quad_int){ 0, 2, 4, 6 });
+	quad_int where = __builtin_shufflevector((quad_int)a, (quad_int)b, 0, 2, 4, 6);
 	return (quad)(where & (quad_int)quad_of(0x1p-24f));
 }
 
