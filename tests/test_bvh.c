@@ -60,13 +60,19 @@ static void oracle_free(struct oracle *o)
 	free(o->hits);
 }
 
+static bool same_time(double t, double u, double near, const struct accel *a)
+{
+	return t == u || fabs(t - u) <= near * box_diagonal(&a->root);
+}
+
 /* Counted one by one and many at once: the list's hits, bit for bit. Uncounted: the same primitive, its t as near as 'near' is of the
- * root's diagonal. Any-hit queries hit when the list does. */
+ * root's diagonal, alone and among many. Any-hit queries hit when the list does. */
 static void compare_hits(const struct accel *a, const struct oracle *o, double near, const char *what)
 {
-	struct hit *many = malloc(o->count * sizeof *many);
+	struct hit *many = malloc(o->count * sizeof *many), *uncounted = malloc(o->count * sizeof *uncounted);
 	struct tally *tallies = malloc(o->count * sizeof *tallies);
 	a->ops->shoot_many(a, o->rays, o->count, many, tallies);
+	accel_hit_many(a, o->rays, o->count, uncounted);
 	for (size_t i = 0; i < o->count; i++) {
 		struct hit h, counted;
 		struct tally n = { 0 };
@@ -75,16 +81,19 @@ static void compare_hits(const struct accel *a, const struct oracle *o, double n
 		bool hit = a->ops->shoot(a, &o->rays[i], &h);
 		a->ops->shoot_counted(a, &o->rays[i], &counted, &n);
 		const struct hit *want = &o->hits[i];
-		if (h.id != want->id || !(h.t == want->t || fabs(h.t - want->t) <= near * box_diagonal(&a->root)) ||
+		if (h.id != want->id || !same_time(h.t, want->t, near, a) ||
 		    hit != (h.id != NO_PRIMITIVE) || counted.id != h.id || counted.t != want->t || many[i].id != h.id || many[i].t != want->t)
 			fail_msg("%s: ray %zu hits %u at %.17g, %u counted, %u among many; the list %u at %.17g", what, i, h.id, h.t, counted.id,
 			         many[i].id, o->hits[i].id, o->hits[i].t);
+		if (uncounted[i].id != h.id || !same_time(uncounted[i].t, want->t, near, a))
+			fail_msg("%s: ray %zu hits %u at %.17g among many, uncounted", what, i, uncounted[i].id, uncounted[i].t);
 		if (memcmp(&n, &tallies[i], sizeof n) != 0)
 			fail_msg("%s: ray %zu is counted otherwise among many", what, i);
 		if (a->ops->shoot(a, &any, &h) != hit)
 			fail_msg("%s: ray %zu: any hit and nearest hit disagree", what, i);
 	}
 	free(many);
+	free(uncounted);
 	free(tallies);
 }
 
@@ -298,6 +307,7 @@ static void order_does_not_matter(void **state)
 	struct ray_source source;
 	struct ray *rays = malloc(COUNT * sizeof *rays);
 	struct hit *hits = malloc(COUNT * sizeof *hits);
+	struct hit *uncounted = malloc(COUNT * sizeof *uncounted);
 	struct tally *tallies = malloc(COUNT * sizeof *tallies);
 	assert_int_equal(ray_source_open(&source, &a, WORKLOAD_INVARIANT, 11, &e), 0);
 	for (size_t i = 0; i < COUNT; i++) {
@@ -309,16 +319,21 @@ static void order_does_not_matter(void **state)
 	assert_non_null(order);
 	free(order);
 	a.ops->shoot_many(&a, rays, COUNT, hits, tallies);
+	accel_hit_many(&a, rays, COUNT, uncounted);
 	for (size_t i = 0; i < COUNT; i++) {
 		struct hit h;
 		struct tally n = { 0 };
 		a.ops->shoot_counted(&a, &rays[i], &h, &n);
 		if (h.id != hits[i].id || h.t != hits[i].t || memcmp(&n, &tallies[i], sizeof n) != 0)
 			fail_msg("ray %zu: %u at %.17g alone, %u at %.17g among many", i, h.id, h.t, hits[i].id, hits[i].t);
+		a.ops->shoot(&a, &rays[i], &h);
+		if (h.id != uncounted[i].id || !same_time(h.t, uncounted[i].t, 5e-4, &a))
+			fail_msg("ray %zu, uncounted: %u at %.17g alone, %u at %.17g among many", i, h.id, h.t, uncounted[i].id, uncounted[i].t);
 	}
 	ray_source_close(&source);
 	free(rays);
 	free(hits);
+	free(uncounted);
 	free(tallies);
 	accel_free(&a);
 	primitives_free(&p);

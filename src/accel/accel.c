@@ -37,6 +37,16 @@ void accel_free(struct accel *a)
 	*a = (struct accel){ 0 };
 }
 
+void accel_hit_many(const struct accel *a, const struct ray *r, size_t count, struct hit *h)
+{
+	if (a->ops->hit_many) {
+		a->ops->hit_many(a, r, count, h);
+		return;
+	}
+	for (size_t i = 0; i < count; i++)
+		a->ops->shoot(a, &r[i], &h[i]);
+}
+
 bool accel_applies(const struct accel_ops *ops, const void *opt, const char *key)
 {
 	return key_find(ops->keys, key) && (!ops->applies || ops->applies(opt, key));

@@ -98,6 +98,8 @@ struct accel_ops {
 	/* The counted form for an array of rays; fills h[count] and n[count]. Same results as one by one, sooner. */
 	void (*shoot_many)(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n);
 	int (*check)(const struct accel *a, struct err *e); /* invariants, for tests */
+	/* As shoot, for an array of rays; fills h[count]. NULL: nothing faster than one by one (accel_hit_many). */
+	void (*hit_many)(const struct accel *a, const struct ray *r, size_t count, struct hit *h);
 };
 
 enum { ACCEL_OPT_MOST = 128 };
@@ -134,6 +136,9 @@ int accel_build_on(struct accel *a, const struct accel_ops *ops, const void *opt
                    struct err *e);
 
 void accel_free(struct accel *a);
+
+/* The hits of many rays, uncounted: those of shoot, sooner where the structure can. */
+void accel_hit_many(const struct accel *a, const struct ray *r, size_t count, struct hit *h);
 
 /* Whether a primitive of these bounds is listed only where it reaches into a cell along the axis: inner lists want that of all but what is
  * flat across the axis, which may lie in a side of the cell. */

@@ -57,5 +57,5 @@ static int build(struct accel *a, const void *opt, struct err *e)
 
 const struct accel_ops accel_bsp = {
 	"bsp", "cells halved across x, y and z in turn", keys, sizeof(struct bsp_options), NULL,
-	build, planes_cells, planes_shoot, planes_shoot_counted, planes_shoot_many, check_lists
+	build, planes_cells, planes_shoot, planes_shoot_counted, planes_shoot_many, check_lists, NULL
 };

@@ -212,5 +212,5 @@ static int check(const struct accel *a, struct err *e)
 
 const struct accel_ops accel_bvh = {
 	"bvh", "a binary tree of boxes that may overlap", keys, sizeof(struct bvh_options), applies, build, cells, shoot_any, shoot_any_counted,
-	shoot_many, check
+	shoot_many, check, NULL
 };

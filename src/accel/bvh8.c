@@ -76,21 +76,29 @@ static bool shoot_counted(const struct accel *a, const struct ray *r, struct hit
 static void shoot_many(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n)
 {
 	const struct bvh8 *b = a->impl;
+	struct tally pilot[PILOTS];
 	size_t pilots = count < PILOTS ? count : PILOTS;
 	uint64_t steps = 0;
-	b->kernel->shoot_all(a, r, pilots, h, n);
+	b->kernel->shoot_all(a, r, pilots, h, pilot);
 	for (size_t i = 0; i < pilots; i++)
-		steps += n[i].inner_step + n[i].leaves;
+		steps += pilot[i].inner_step + pilot[i].leaves;
+	if (n)
+		memcpy(n, pilot, pilots * sizeof *n);
 	bool sorted = a->mem.held > SORTED_BYTES && steps >= SORTED_STEPS * pilots;
 	for (size_t done = pilots, piece; done < count; done += piece) {
 		piece = count - done < SORTED_MOST ? count - done : SORTED_MOST;
 		uint32_t *order = sorted && piece >= SORTED_LEAST ? bvh8_order(a, r + done, piece) : NULL;
 		if (order)
-			b->kernel->shoot_in_order(a, r + done, order, piece, h + done, n + done);
+			b->kernel->shoot_in_order(a, r + done, order, piece, h + done, n ? n + done : NULL);
 		else
-			b->kernel->shoot_all(a, r + done, piece, h + done, n + done);
+			b->kernel->shoot_all(a, r + done, piece, h + done, n ? n + done : NULL);
 		free(order);
 	}
+}
+
+static void hit_many(const struct accel *a, const struct ray *r, size_t count, struct hit *h)
+{
+	shoot_many(a, r, count, h, NULL);
 }
 
 /* A leaf's ids, gathered from its blocks. */
@@ -162,5 +170,5 @@ static int check(const struct accel *a, struct err *e)
 
 const struct accel_ops accel_bvh8 = {
 	"bvh8", "a tree of boxes, eight children a node, tested side by side", keys, sizeof(struct bvh8_options), NULL, build, cells, shoot,
-	shoot_counted, shoot_many, check
+	shoot_counted, shoot_many, check, hit_many
 };

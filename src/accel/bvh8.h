@@ -48,7 +48,7 @@ struct bvh8_kernel {
 	const char *name;
 	bool (*shoot)(const struct accel *a, const struct ray *r, struct hit *h);
 	bool (*shoot_counted)(const struct accel *a, const struct ray *r, struct hit *h, struct tally *n);
-	/* Counted, rays as they are or in the order given: the latter for rays that would wait for memory. */
+	/* Rays as they are or in the order given: the latter for rays that would wait for memory. n: NULL where nothing is to be counted. */
 	void (*shoot_all)(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n);
 	void (*shoot_in_order)(const struct accel *a, const struct ray *r, const uint32_t *order, size_t count, struct hit *h, struct tally *n);
 };

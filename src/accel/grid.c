@@ -134,5 +134,5 @@ WALK_WITH_MAILBOX(walk)
 
 const struct accel_ops accel_grid = {
 	"grid", "equal cells in rows, columns and layers", keys, sizeof(struct grid_options), applies,
-	grid_build, cells, shoot, shoot_counted, shoot_many, check_lists
+	grid_build, cells, shoot, shoot_counted, shoot_many, check_lists, NULL
 };

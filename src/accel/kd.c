@@ -39,5 +39,5 @@ static int build(struct accel *a, const void *opt, struct err *e)
 
 const struct accel_ops accel_kd = {
 	"kd", "planes anywhere, by balance or by cost", keys, sizeof(struct kd_options), applies,
-	build, planes_cells, planes_shoot, planes_shoot_counted, planes_shoot_many, check_lists
+	build, planes_cells, planes_shoot, planes_shoot_counted, planes_shoot_many, check_lists, NULL
 };

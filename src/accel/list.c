@@ -66,5 +66,5 @@ static int check(const struct accel *a, struct err *e)
 
 const struct accel_ops accel_list = {
 	"list", "no structure: every ray tests every primitive", keys, sizeof(struct list_options), NULL,
-	build, cells, shoot, shoot_counted, shoot_many, check
+	build, cells, shoot, shoot_counted, shoot_many, check, NULL
 };

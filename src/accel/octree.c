@@ -89,5 +89,5 @@ static bool applies(const void *opt, const char *key)
 
 const struct accel_ops accel_octree = {
 	"octree", "cells cut into eight through the centre, leaves linked over their faces", keys, sizeof(struct octree_options), applies,
-	octree_build, octree_cells, shoot, shoot_counted, shoot_many, octree_check
+	octree_build, octree_cells, shoot, shoot_counted, shoot_many, octree_check, NULL
 };
