@@ -27,7 +27,7 @@ OBJ     := $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/*/*.c spd/*.c)) $(WIDE)
 TESTS   := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c))
 FUZZ    := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 # A race needs threads: tests that start none, and readers, are not hunted for any.
-SEQUENTIAL := aff formats geom interior mesh nff order pov_% scene spd spd_pov
+SEQUENTIAL := aff flux formats geom interior mesh nff octree order partitions pov_% scene spd spd_pov
 ifeq ($(SAN),thread)
 TESTS   := $(filter-out $(SEQUENTIAL:%=$(BUILD)/tests/test_%),$(TESTS))
 FUZZ    :=

@@ -300,7 +300,7 @@ static void order_does_not_matter(void **state)
 {
 	(void)state;
 	enum { COUNT = 20000 };
-	struct primitives p = make_spd("teapot", 39, true);
+	struct primitives p = make_spd("teapot", 70, true);
 	struct bvh8_options o = { 0 };
 	struct accel a = build("bvh8", &o, &p);
 	struct err e = { 0 };

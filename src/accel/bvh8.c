@@ -7,7 +7,7 @@
 
 /* Sorting pays where rays wait for memory: many rays, SORTED_MOST at a time, through a structure of some size, in which the first ones
  * (PILOTS) make SORTED_STEPS steps or more. */
-enum { PILOTS = 256, SORTED_LEAST = 4096, SORTED_MOST = 1 << 20, SORTED_BYTES = 4 << 20, SORTED_STEPS = 4 };
+enum { PILOTS = 256, SORTED_LEAST = 4096, SORTED_MOST = 1 << 20, SORTED_BYTES = 16 << 20, SORTED_STEPS = 4 };
 
 static const char *const builder_words[] = { "binned", "sah", "median", "insertion", "spatial", NULL };
 static const char *const kernel_words[] = { "best", "avx512", "avx2", "portable", NULL };
