@@ -14,7 +14,7 @@ static struct bvh_frame frame_make(const struct box *root)
 	return (struct bvh_frame){ vec_scale(vec_add(root->lo, root->hi), 0.5), ldexp(1, -exponent) };
 }
 
-/* Two coordinates at once: of a vec x and y, or z and what follows. */
+/* Two coordinates at once: x and y of a vec, or z twice. */
 typedef double pair __attribute__((vector_size(16)));
 typedef int64_t pair_int __attribute__((vector_size(16)));
 typedef float half_quad __attribute__((vector_size(8)));

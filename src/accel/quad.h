@@ -7,7 +7,6 @@
 
 typedef float quad __attribute__((vector_size(16)));
 typedef int32_t quad_int __attribute__((vector_size(16)));
-typedef double quad_double __attribute__((vector_size(32)));
 
 static inline quad quad_min(quad a, quad b)
 {
