@@ -207,7 +207,7 @@ static void measure_replay(struct text *out, const struct table *t)
 {
 	struct range replay = range_of(t, rows_is_image_of_any_tree, "ratio_replay", 0.97, 1.03);
 	struct range calibrated = range_of(t, rows_is_image_of_any_tree, "ratio_calibrated", 0.9, 1.1);
-	if (replay.count)
+	if (replay.count && calibrated.count)
 		text_print(out, "replay / actual %.3f .. %.3f, %zu of %zu within 3 %%; calibrated / actual %.3f .. %.3f, %zu within 10 %%", replay.low,
 		           replay.high, replay.inside, replay.count, calibrated.low, calibrated.high, calibrated.inside);
 }

@@ -131,6 +131,15 @@ static double loss(const struct sweep *s, const char *chosen_by)
 	return 100 * (sweep_at(s, choice.height, "flops_actual") / sweep_least(s, "flops_actual").value - 1);
 }
 
+/* Heights nearly as good; hierarchies have none. */
+static void add_heights(struct text *out, struct sweep_best best)
+{
+	if (best.low <= best.high)
+		text_print(out, "<td>%.0f-%.0f</td>", best.low, best.high);
+	else
+		text_print(out, "<td></td>");
+}
+
 static void print_method_row(struct text *out, const struct sweep *image, const struct table *times, int scene)
 {
 	const struct sweep random = { image->table, image->method, image->family, true, false };
@@ -140,8 +149,8 @@ static void print_method_row(struct text *out, const struct sweep *image, const 
 	add_number(out, "%.0f", model.height);
 	text_print(out, "<td>%s</td>", paper[image->method][scene].best);
 	add_number(out, "%.0f", best.height);
-	text_print(out, "<td>%.0f-%.0f</td>", best.low, best.high);
-	text_print(out, "<td>%.0f-%.0f</td>", fastest.low, fastest.high);
+	add_heights(out, best);
+	add_heights(out, fastest);
 	add_number(out, "%.1f", paper[image->method][scene].theory);
 	add_number(out, "%.1f", model.value);
 	add_number(out, "%.1f", paper[image->method][scene].experiment);
@@ -327,12 +336,22 @@ static void print_fits(struct text *out, const struct table *t)
 	close_table(out);
 }
 
+/* Whether the job has images of a scene of the paper in one of its partitions of space. */
+static bool is_swept(const struct table *t)
+{
+	for (int i = 0; i < SCENES; i++)
+		for (int m = 0; m < SWEEP_ABV; m++)
+			for (int restart = 0; restart < 2; restart++) {
+				const struct sweep s = { t, (enum sweep_method)m, scenes[i].family, false, restart };
+				if (has_sweep(&s))
+					return true;
+			}
+	return false;
+}
+
 void subramanian_print(struct text *out, const struct table *t, const struct table *times)
 {
-	bool any = false;
-	for (int i = 0; i < SCENES; i++)
-		any |= find_image(t, i) < t->rows;
-	if (!any)
+	if (!is_swept(t))
 		return;
 	text_print(out, "<h2>Subramanian and Fussell 1990, beside what was measured</h2>\n");
 	print_scenes(out, t);
