@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sorting pays where rays wait for memory: many rays, SORTED_MOST at a time, through a structure of some size, in which the first ones
+/* Sorting pays where rays wait for memory: many rays, SORTED_MOST at a time, through a structure of some size (BVH8_SORTED_BYTES), in which the first ones
  * (PILOTS) make SORTED_STEPS steps or more. */
-enum { PILOTS = 256, SORTED_LEAST = 4096, SORTED_MOST = 1 << 20, SORTED_BYTES = 16 << 20, SORTED_STEPS = 4 };
+enum { PILOTS = 256, SORTED_LEAST = 4096, SORTED_MOST = 1 << 20, SORTED_STEPS = 4 };
 
 static const char *const builder_words[] = { "binned", "sah", "median", "insertion", "spatial", NULL };
 static const char *const kernel_words[] = { "best", "avx512", "avx2", "portable", NULL };
@@ -73,6 +73,7 @@ static bool shoot_counted(const struct accel *a, const struct ray *r, struct hit
 	return b->kernel->shoot_counted(a, r, h, n);
 }
 
+/* n: NULL where nothing is to be counted. */
 static void shoot_many(const struct accel *a, const struct ray *r, size_t count, struct hit *h, struct tally *n)
 {
 	const struct bvh8 *b = a->impl;
@@ -84,7 +85,7 @@ static void shoot_many(const struct accel *a, const struct ray *r, size_t count,
 		steps += pilot[i].inner_step + pilot[i].leaves;
 	if (n)
 		memcpy(n, pilot, pilots * sizeof *n);
-	bool sorted = a->mem.held > SORTED_BYTES && steps >= SORTED_STEPS * pilots;
+	bool sorted = a->mem.held > BVH8_SORTED_BYTES && steps >= SORTED_STEPS * pilots;
 	for (size_t done = pilots, piece; done < count; done += piece) {
 		piece = count - done < SORTED_MOST ? count - done : SORTED_MOST;
 		uint32_t *order = sorted && piece >= SORTED_LEAST ? bvh8_order(a, r + done, piece) : NULL;

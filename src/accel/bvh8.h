@@ -14,6 +14,9 @@
 
 enum { BVH8_WIDE = 8, BVH8_LANES = 4, BVH8_UNIT = 64, BVH8_MOST_BLOCKS = 15 };
 
+/* Many rays are sorted before they are shot through a structure of more bytes than a cache holds. */
+enum { BVH8_SORTED_BYTES = 16 << 20 };
+
 /* Where a coordinate of the ray's origin may lie; rays from farther out are moved along to the root first. A ray's float coordinates
  * are then off by less than 12 roundings of 2^-24 wherever it may meet a box. */
 #define BVH8_NEAR 1.0

@@ -19,7 +19,8 @@ static uint32_t count_nodes(const struct bvh_draft *d, uint32_t node, int depth,
 	return 1 + count_nodes(d, n->first, depth + 1, deepest) + count_nodes(d, n->first + 1, depth + 1, deepest);
 }
 
-/* A box in the scene, larger by the slack: surface in a plane that splits space is inside on both sides of it, however the plane is rounded. */
+/* A box in the scene, larger by the slack: surface in a plane that splits space is inside on both sides of it, however the plane is
+ * rounded. */
 static struct box scene_box(const struct bvh_draft *d, const struct bvh_draft_node *n, double slack)
 {
 	struct box b;

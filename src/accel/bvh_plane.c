@@ -1,4 +1,4 @@
-/* All three axes are swept at once, a lane each. */
+/* The cheapest plane between bins: all three axes are swept at once, a lane each. */
 #include "accel/bvh_plane.h"
 
 /* What is in a bin of every axis, or in several of them: lane i is axis i. */
