@@ -14,8 +14,8 @@ struct flops {
 	double scene, traversal;
 };
 
-/* Counts a ray, expected or measured, as flops: tests that are made, leaves, inner nodes, those of them with boxes. NAN for structures
- * whose rays travel over links, since the paper has none. */
+/* Counts a ray, expected or measured, as flops: tests that are made, leaves, inner nodes, boxes tested. Of a hierarchy of bounding volumes a
+ * leaf's box is the primitive's, whose test it is. NAN for structures whose rays travel over links, since the paper has none. */
 struct flops flops_of(const struct accel *a, double tests, double leaves, double inner, double boxes);
 
 #endif

@@ -14,7 +14,8 @@ bool sweep_holds(const struct sweep *s, size_t row)
 		    !table_is(t, row, "traversal", s->restart ? "restart" : "recursive"))
 			return false;
 	if (s->method == SWEEP_ABV)
-		return true;
+		return table_is(t, row, "builder", "insertion") && table_is(t, row, "max_objects", "1") &&
+		       table_is(t, row, "traversal", "array");
 	return table_is(t, row, "mailbox", "full") && (table_is(t, row, "stop", "none") || table_is(t, row, "stop", ""));
 }
 

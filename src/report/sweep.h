@@ -4,7 +4,8 @@
 
 #include "report/table.h"
 
-/* The paper's structures; OCTREE is a BSP tree whose empty halves are cut too, ABV its automatic bounding volume hierarchy. */
+/* The paper's structures; OCTREE is a BSP tree whose empty halves are cut too, ABV its automatic bounding volume hierarchy,
+ * a primitive a leaf, all of whose subtrees that are met are visited. */
 enum sweep_method { SWEEP_BSP, SWEEP_OCTREE, SWEEP_ARTS, SWEEP_KD, SWEEP_ABV, SWEEP_METHODS };
 
 /* One sweep: a method over the scenes of a family, with full mailboxes where it has any. random: rays of the invariant law, else images.
